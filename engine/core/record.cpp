@@ -1,0 +1,79 @@
+#include "engine/core/record.h"
+
+#include <stdexcept>
+
+namespace dem {
+namespace {
+
+template <class Items, class Get>
+auto find_named(Items& items, std::string_view name, Get get) -> decltype(&*items.begin()) {
+  for (auto& item : items) {
+    if (get(item) == name) return &item;
+  }
+  return nullptr;
+}
+
+const auto by_name = [](const auto& item) -> std::string_view { return item.name; };
+const auto by_first = [](const auto& item) -> std::string_view { return item.first; };
+
+[[noreturn]] void missing(const std::string& what, std::string_view name) {
+  throw std::out_of_range(what + " has no '" + std::string(name) + "'");
+}
+
+template <class T>
+std::span<const T> typed(const Table& table, std::string_view name) {
+  const Column* column = find_named(table.columns, name, by_name);
+  const auto* values = column ? std::get_if<std::vector<T>>(&column->values) : nullptr;
+  if (!values) missing("table " + table.name, name);
+  return *values;
+}
+
+}  // namespace
+
+void Table::add(std::string column, std::string unit, std::vector<double> values, int width) {
+  columns.push_back({std::move(column), std::move(unit), width, std::move(values)});
+}
+void Table::add(std::string column, std::string unit, std::vector<std::int32_t> values, int width) {
+  columns.push_back({std::move(column), std::move(unit), width, std::move(values)});
+}
+bool Table::has(std::string_view column) const { return find_named(columns, column, by_name) != nullptr; }
+std::span<const double> Table::real(std::string_view column) const { return typed<double>(*this, column); }
+std::span<const std::int32_t> Table::integer(std::string_view column) const {
+  return typed<std::int32_t>(*this, column);
+}
+std::size_t Table::rows() const {
+  if (columns.empty()) return 0;
+  const Column& first = columns.front();
+  return std::visit([&](const auto& v) { return v.size() / static_cast<std::size_t>(first.width); }, first.values);
+}
+std::string Table::attribute(std::string_view key) const {
+  const auto* found = find_named(attributes, key, by_first);
+  return found ? found->second : std::string();
+}
+
+const Table* Record::find(std::string_view name) const { return find_named(tables, name, by_name); }
+const Table& Record::table(std::string_view name) const {
+  const Table* found = find(name);
+  if (!found) missing("record of " + case_id, name);
+  return *found;
+}
+bool Record::has_result(std::string_view name) const { return find_named(results, name, by_first) != nullptr; }
+double Record::result(std::string_view name) const {
+  const auto* found = find_named(results, name, by_first);
+  if (!found) missing("record of " + case_id, name);
+  return found->second;
+}
+double Record::number(std::string_view parameter) const {
+  const auto* found = find_named(parameters, parameter, by_first);
+  const double* value = found ? std::get_if<double>(&found->second) : nullptr;
+  if (!value) missing("parameters of " + case_id, parameter);
+  return *value;
+}
+std::string Record::text(std::string_view parameter) const {
+  const auto* found = find_named(parameters, parameter, by_first);
+  const std::string* value = found ? std::get_if<std::string>(&found->second) : nullptr;
+  if (!value) missing("parameters of " + case_id, parameter);
+  return *value;
+}
+
+}  // namespace dem

@@ -1,0 +1,103 @@
+#pragma once
+// Scenarios: TOML files whose every key is declared once (type, unit, range, default, help). Reading, messages,
+// --explain-keys and the reference page of the documentation come from the declarations.
+//
+// A quantity with a unit is written as a string with its unit, "0.35 mm", "58 GPa", "50 deg"; a bare number is refused
+// there, and so is a unit of another dimension. Numbers without unit are bare. Values reach the engine in SI units
+// (angles in radians, shares as fractions: "17 %" is 0.17).
+//
+// A file:            model = "grain_texture"   title = "..."   seed = 1
+//                    [specimen] ...            keys of the model
+//                    [[mineral]] ...           a list: its keys are declared as "mineral[].share"
+//                    [sweep] aspect_ratio = [1, 2, 3]
+//                    [scales.draft.specimen] diameter = "12.5 mm"     overrides of any key at that scale
+// Only scales that have a [scales.NAME] table (it may be empty) can be asked for.
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "engine/core/errors.h"
+
+namespace dem {
+
+enum class KeyType { boolean, integer, real, text, integers, reals, texts };
+
+/// The declaration of one key.
+struct Key {
+  std::string path;                        ///< "specimen.diameter", "mineral[].share", "sweep.aspect_ratio"
+  KeyType type = KeyType::real;
+  std::string unit;                        ///< unit in which range, default and help are written ("mm", "GPa", "%", "deg"); "" : none
+  double low = -std::numeric_limits<double>::infinity();   ///< inclusive, in `unit`; for lists: of each element
+  double high = std::numeric_limits<double>::infinity();
+  std::vector<std::string> choices;        ///< for text(s): the allowed words; empty: any
+  std::string standard;                    ///< the default as TOML text ("\"0.35 mm\"", "1.66", "[1]"); "" : the key is required
+  std::string help;                        ///< one line, with the symbol and source where there is one
+};
+
+/// A value in SI units.
+using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<std::int64_t>, std::vector<double>,
+                           std::vector<std::string>>;
+
+/// A read, checked and resolved scenario: every declared key has a value.
+class Scenario {
+ public:
+  /// Reads `file`, applies [scales.SCALE], then the overrides ("key=value", TOML value syntax, of --set).
+  /// `keys_of` gives the declarations for the file's `model`; common keys are added here.
+  /// Throws InputError for anything that is wrong; the message names file, line, key, and what would be right.
+  static Scenario read(const std::string& file, std::string_view scale, std::span<const std::string> overrides,
+                       const std::function<std::span<const Key>(std::string_view model)>& keys_of);
+
+  [[nodiscard]] const std::string& name() const { return name_; }    ///< file stem
+  [[nodiscard]] const std::string& file() const { return file_; }
+  [[nodiscard]] const std::string& scale() const { return scale_; }
+  [[nodiscard]] std::string model() const { return text("model"); }
+  [[nodiscard]] std::uint64_t seed() const { return static_cast<std::uint64_t>(integer("seed")); }
+
+  // Values in SI units. A path that was not declared, or another type: std::logic_error (our defect, not the user's).
+  [[nodiscard]] bool boolean(std::string_view path) const;
+  [[nodiscard]] std::int64_t integer(std::string_view path) const;
+  [[nodiscard]] double real(std::string_view path) const;            ///< integers convert
+  [[nodiscard]] const std::string& text(std::string_view path) const;
+  [[nodiscard]] const std::vector<std::int64_t>& integers(std::string_view path) const;
+  [[nodiscard]] const std::vector<double>& reals(std::string_view path) const;
+  [[nodiscard]] const std::vector<std::string>& texts(std::string_view path) const;
+  /// Entries of a list of tables: count("mineral") is 4; then real("mineral[0].share").
+  [[nodiscard]] std::size_t count(std::string_view list) const;
+  [[nodiscard]] bool given(std::string_view path) const;             ///< written by the user (file, scale or --set)
+
+  /// A copy with one value replaced (SI), for the cases of a sweep.
+  [[nodiscard]] Scenario with(std::string_view path, Value value) const;
+  /// An error about the value of `path`, with the line where the user wrote it.
+  [[nodiscard]] InputError error(std::string_view path, const std::string& wrong, std::string right) const;
+  /// Stable text of the resolved values whose path starts with one of `prefixes`, sorted by path, one "path = value"
+  /// a line, doubles in shortest round-trip form. The content key of a case is made of this.
+  [[nodiscard]] std::string canonical(std::span<const std::string> prefixes) const;
+
+ private:
+  struct Entry {
+    Value value;
+    Location where;
+    bool given = false;
+  };
+  std::string name_, file_, scale_;
+  std::map<std::string, Entry, std::less<>> entries_;
+  std::map<std::string, std::size_t, std::less<>> counts_;
+  [[nodiscard]] const Entry& entry(std::string_view path) const;
+};
+
+/// The keys that every scenario has: model, title, seed, figures, comparisons file, ...
+std::span<const Key> common_keys();
+
+/// "17 %" -> 0.17, "58 GPa" -> 5.8e10; throws InputError (no location) on a bad number, unknown unit or another dimension.
+double quantity(std::string_view text, std::string_view unit);
+
+/// The text of --explain-keys: path, type, unit, range, default and help of each key.
+std::string explain(std::span<const Key> keys);
+
+}  // namespace dem

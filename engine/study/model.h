@@ -1,0 +1,61 @@
+#pragma once
+// What a model gives to the study runner. A case is a pure function from its content to its record.
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/record.h"
+#include "engine/scenario/scenario.h"
+
+namespace dem {
+
+/// What a running case tells about itself now and then; values in SI units, NaN where they do not apply.
+struct Progress {
+  std::string stage;       ///< "packing", "loading"
+  std::int64_t step = 0;
+  double fraction = 0;     ///< 0 ... 1, an estimate of what is done
+  double strain = 0;       ///< axial, in the sense of the test
+  double stress = 0;       ///< Pa, in the sense of the test
+};
+
+/// What the runner lends to a case. Nothing here may change the result.
+struct RunContext {
+  int threads = 1;
+  std::filesystem::path specimens;    ///< folder for generated specimens, kept by content
+  std::filesystem::path checkpoint;   ///< file for the state of a cut case; the case writes it aside, then renames it
+  double checkpoint_seconds = 120;    ///< wall time between checkpoints
+  const std::atomic<bool>* stop = nullptr;            ///< set by a signal: write the checkpoint and throw Interrupted
+  std::function<void(const Progress&)> report = [](const Progress&) {};
+};
+
+/// Thrown by a case that was asked to stop; its checkpoint is written.
+struct Interrupted {};
+
+/// One specimen in one test.
+struct CaseSpec {
+  std::string id;        ///< "compression_ar_2"
+  Scenario scenario;     ///< resolved, with the swept values of this case put in
+  std::string content;   ///< canonical text of everything the result depends on, seed and physics version included
+  std::vector<std::pair<std::string, std::variant<double, std::string>>> parameters;
+};
+
+/// One model of the program; see models().
+struct Model {
+  std::string_view name;              ///< the scenario's `model`
+  std::string_view physics_version;   ///< raised whenever results change; part of every content key
+  std::span<const Key> (*keys)();     ///< its scenario keys
+  /// The cases of a scenario, in report order. Throws InputError for values that are wrong together.
+  std::vector<CaseSpec> (*cases)(const Scenario&);
+  /// Simulates a case. Throws CaseError when it fails, Interrupted when stopped.
+  Record (*run)(const CaseSpec&, RunContext&);
+};
+
+/// The explicit table of models (engine/study/models.cpp).
+std::span<const Model> models();
+const Model& model(std::string_view name);  ///< throws InputError listing the known names
+
+}  // namespace dem

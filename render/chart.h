@@ -1,0 +1,90 @@
+#pragma once
+// Charts: curves, bars, bands and marks on one or two value axes, with insets. Plain data in; PNG and vector SVG out
+// (render/draw.h). Values are in the units that the axis titles name: the caller converts.
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace render {
+
+struct Colour {
+  double red = 0, green = 0, blue = 0;  ///< 0 ... 1
+};
+
+enum class Line { none, solid, dash, dot, dash_dot };
+enum class Marker { none, circle, square, diamond, triangle, cross };
+enum class Side { left, right };  ///< which value axis
+
+struct Axis {
+  std::string title;                ///< UTF-8, with the unit: "Axial stress σ₁ (MPa)"
+  std::optional<double> low, high;  ///< chosen from the data when absent
+  bool logarithmic = false;
+  std::vector<std::pair<double, std::string>> ticks;  ///< own ticks; empty: chosen
+};
+
+struct Series {
+  std::string label;  ///< legend text; "" keeps it out of the legend
+  std::vector<double> x, y;
+  Colour colour;
+  Line line = Line::solid;
+  double width = 1.6;  ///< px at 100 dpi
+  Marker marker = Marker::none;
+  Side side = Side::left;
+  std::vector<double> y_error;  ///< half lengths of error bars; empty: none
+};
+
+/// A filled band between two curves.
+struct Band {
+  std::string label;
+  std::vector<double> x, low, high;
+  Colour colour;
+  Side side = Side::left;
+};
+
+/// Grouped or stacked bars: values[series][category].
+struct Bars {
+  std::vector<std::string> categories;
+  std::vector<std::string> labels;
+  std::vector<Colour> colours;
+  std::vector<std::vector<double>> values;
+  std::vector<std::vector<double>> errors;  ///< empty: none
+  bool stacked = false;
+  bool print_values = false;
+  std::string value_format = "{:.0f}";      ///< fmt format of printed values
+  Side side = Side::left;
+};
+
+/// A labelled point, or a straight reference line across the plot.
+struct Mark {
+  enum class Kind { point, horizontal, vertical } kind = Kind::point;
+  double x = 0, y = 0;
+  std::string label;
+  Colour colour;
+  Side side = Side::left;
+  Line line = Line::dash;  ///< for reference lines
+};
+
+struct Chart;
+struct Inset {
+  std::vector<Chart> chart;             ///< exactly one (a vector, so that the type may contain itself)
+  std::array<double, 4> place{};        ///< left, bottom, width, height as fractions of the plot area
+};
+
+struct Chart {
+  std::string title;  ///< usually empty: captions belong to the page
+  Axis x, left, right;  ///< the right axis is drawn when something uses it
+  std::vector<Band> bands;
+  std::vector<Series> series;
+  std::optional<Bars> bars;  ///< with bars, x is the axis of categories
+  std::vector<Mark> marks;
+  std::vector<Inset> insets;
+  enum class Legend { none, top_left, top_right, bottom_left, bottom_right, outside_right, below } legend = Legend::top_left;
+  int width = 720, height = 480;  ///< px at 100 dpi; PNG is drawn at twice that
+};
+
+/// Colours that stay apart for colour-blind readers and in grey print (Okabe & Ito 2008), by index.
+Colour palette(std::size_t index);
+
+}  // namespace render

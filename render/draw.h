@@ -1,0 +1,45 @@
+#pragma once
+// Drawing without a display. One Canvas a program; not thread-safe. VTK stays behind this header.
+// The same input gives the same bytes (PNG and SVG), with any number of threads.
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/chart.h"
+#include "render/scene.h"
+
+namespace render {
+
+/// Stable facts written into PNG text chunks and SVG metadata: {"Scenario", hash}, {"Figure", id}, {"Engine", version}.
+/// SVG also takes {"Title", ...} and {"Description", ...} for its <title> and <desc>.
+using Provenance = std::vector<std::pair<std::string, std::string>>;
+
+class Canvas {
+ public:
+  Canvas();  ///< throws dem::EnvironmentError when no off-screen GL context can be made
+  ~Canvas();
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
+
+  /// Draws a chart as PNG (2x) and as SVG with text as paths. Files are written aside, then renamed.
+  void draw(const Chart& chart, const std::filesystem::path& png, const std::filesystem::path& svg,
+            const Provenance& facts);
+  SceneResult draw(const Scene& scene, const std::filesystem::path& png, const Provenance& facts);
+  [[nodiscard]] std::string gl_renderer() const;  ///< for run.json
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Comparison of two PNG files of equal size: 0 same, 1 black against white. Throws dem::EnvironmentError when unreadable.
+struct ImageDifference {
+  double mean = 0;      ///< mean absolute difference of channels
+  double worst = 0;     ///< largest difference of a 8x8 block mean: a shifted line shows, a smoothed edge does not
+  bool same_size = true;
+};
+ImageDifference compare_png(const std::filesystem::path& a, const std::filesystem::path& b);
+
+}  // namespace render

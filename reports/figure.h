@@ -1,0 +1,77 @@
+#pragma once
+// Figures: one published figure each, redrawn from records. A figure is one file in reports/figures ending in one entry
+// of the explicit table figures(): --list-figures, the report's contents and the smoke test over all figures come from it.
+#include <functional>
+#include <string>
+#include <string_view>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "engine/core/record.h"
+#include "engine/scenario/scenario.h"
+#include "render/chart.h"
+#include "render/scene.h"
+
+namespace reports {
+
+/// A case of the study as figures see it: its record, or why there is none.
+struct CaseResult {
+  std::string id;
+  const dem::Record* record = nullptr;  ///< nullptr: the case failed or was left out (--case)
+  std::string error;
+};
+
+struct StudyResult {
+  const dem::Scenario* scenario = nullptr;
+  std::vector<CaseResult> cases;
+  [[nodiscard]] const dem::Record* find(std::string_view id) const;
+};
+
+/// Text table, also written as CSV.
+struct TextTable {
+  std::vector<std::string> head;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// An entry of a legend composed by the page: a swatch (disc or square), text, and a count or note.
+struct LegendEntry {
+  render::Colour colour;
+  std::string text;
+};
+
+/// A scene with what the page writes around it.
+struct Picture {
+  render::Scene scene;
+  std::string label;                 ///< under the picture: "AR 2"
+  std::vector<LegendEntry> legend;
+  bool scale_bar = true;
+};
+
+/// One part of a figure: "a", "b", ... `id` is a suffix of the figure's id and names its files.
+struct Panel {
+  std::string id;
+  std::string caption;               ///< one sentence
+  std::string alt;                   ///< what a reader who cannot see it must know, numbers included
+  std::variant<render::Chart, Picture, TextTable, std::string> content;  ///< std::string: a complete SVG drawing
+};
+
+struct FigureContent {
+  std::vector<Panel> panels;
+  std::string statement;             ///< what the paper says of this figure, in our words
+  std::string finding;               ///< what ours shows, with numbers from the records
+};
+
+struct Figure {
+  std::string_view id;               ///< "crack_maps"
+  std::string_view title;
+  std::string_view source;           ///< "Zhao et al. 2021, Fig. 15a"
+  std::string_view model;            ///< records it needs
+  /// Scenarios that show it by default, by name; a scenario's key `figures` overrides.
+  std::vector<std::string_view> scenarios;
+  FigureContent (*make)(const StudyResult&);
+};
+
+std::span<const Figure> figures();   ///< reports/figures/table.cpp
+
+}  // namespace reports
