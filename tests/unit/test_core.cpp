@@ -1,0 +1,33 @@
+// Random streams and content hashes against published values.
+#include <doctest/doctest.h>
+
+#include "engine/core/hash.h"
+#include "engine/core/random.h"
+
+TEST_CASE("Philox 4x32-10 gives the known answers of Random123") {
+  CHECK(dem::philox({0, 0, 0, 0}, {0, 0}) ==
+        std::array<std::uint32_t, 4>{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8});
+  CHECK(dem::philox({0xffffffff, 0xffffffff, 0xffffffff, 0xffffffff}, {0xffffffff, 0xffffffff}) ==
+        std::array<std::uint32_t, 4>{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd});
+}
+
+TEST_CASE("SHA-256 gives the answers of FIPS 180-4") {
+  CHECK(dem::sha256("abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  CHECK(dem::sha256("") == "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  CHECK(dem::sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq") ==
+        "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+}
+
+TEST_CASE("streams of different purpose or seed do not meet, the same stream repeats") {
+  dem::RandomStream a(1, dem::Purpose::test_data), b(1, dem::Purpose::test_data), c(2, dem::Purpose::test_data);
+  double mean = 0;
+  bool differs = false;
+  for (int i = 0; i < 10000; ++i) {
+    const double x = a.uniform();
+    CHECK(x == b.uniform());
+    differs = differs || x != c.uniform();
+    mean += x / 10000;
+  }
+  CHECK(differs);
+  CHECK(mean == doctest::Approx(0.5).epsilon(0.02));
+}
