@@ -1,0 +1,27 @@
+#pragma once
+// Files that are either whole or not there: written under a temporary name in the same folder, then renamed.
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace dem {
+
+/// Calls `write` with a temporary path beside `path` (its folder is made when missing), flushes that file to the disk
+/// and renames it to `path`. When anything fails the temporary file is removed and `path` is as it was.
+/// Throws EnvironmentError naming `path` (disk full, no permission) or what `write` throws.
+void write_aside(const std::filesystem::path& path, const std::function<void(const std::filesystem::path&)>& write);
+
+/// The same for bytes at hand.
+void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// The bytes of a file; throws EnvironmentError naming it when it cannot be read.
+std::string read_file(const std::filesystem::path& path);
+
+/// Makes a folder and those above it; throws EnvironmentError naming it.
+void make_folder(const std::filesystem::path& path);
+
+/// Removes what a killed process left of write_aside() in `folder` (files ".NAME.XXXXXX.part"), not in folders below.
+void remove_leftovers(const std::filesystem::path& folder);
+
+}  // namespace dem
