@@ -30,14 +30,14 @@ enum class KeyType { boolean, integer, real, text, integers, reals, texts };
 
 /// The declaration of one key.
 struct Key {
-  std::string path;                        ///< "specimen.diameter", "mineral[].share", "sweep.aspect_ratio"
+  std::string path = {};                   ///< "specimen.diameter", "mineral[].share", "sweep.aspect_ratio"
   KeyType type = KeyType::real;
-  std::string unit;                        ///< unit in which range, default and help are written ("mm", "GPa", "%", "deg"); "" : none
+  std::string unit = {};                   ///< unit in which range, default and help are written ("mm", "GPa", "%", "deg"); "" : none
   double low = -std::numeric_limits<double>::infinity();   ///< inclusive, in `unit`; for lists: of each element
   double high = std::numeric_limits<double>::infinity();
-  std::vector<std::string> choices;        ///< for text(s): the allowed words; empty: any
-  std::string standard;                    ///< the default as TOML text ("\"0.35 mm\"", "1.66", "[1]"); "" : the key is required
-  std::string help;                        ///< one line, with the symbol and source where there is one
+  std::vector<std::string> choices = {};   ///< for text(s): the allowed words; empty: any
+  std::string standard = {};               ///< the default as TOML text ("\"0.35 mm\"", "1.66", "[1]"); "" : the key is required
+  std::string help = {};                   ///< one line, with the symbol and source where there is one
 };
 
 /// A value in SI units.

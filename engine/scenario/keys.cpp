@@ -1,0 +1,90 @@
+// The keys that every scenario has, and the text of --explain-keys.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/scenario/scenario.h"
+#include "engine/scenario/suggest.h"
+#include "engine/scenario/units.h"
+
+namespace dem {
+namespace {
+
+std::string type_text(const Key& key) {
+  switch (key.type) {
+    case KeyType::boolean:
+      return "true or false";
+    case KeyType::integer:
+      return "whole number";
+    case KeyType::real:
+      return key.unit.empty() ? "number" : "quantity in " + units_like(key.unit);
+    case KeyType::text:
+      return "text";
+    case KeyType::integers:
+      return "list of whole numbers";
+    case KeyType::reals:
+      return key.unit.empty() ? "list of numbers" : "list of quantities in " + units_like(key.unit);
+    case KeyType::texts:
+      return "list of texts";
+  }
+  return {};
+}
+
+std::string limit_text(const Key& key) {
+  const std::string unit = key.unit.empty() ? "" : " " + key.unit;
+  const bool low = std::isfinite(key.low);
+  const bool high = std::isfinite(key.high);
+  if (low && high) return shortest(key.low) + " to " + shortest(key.high) + unit;
+  if (low) return shortest(key.low) + unit + " or more";
+  if (high) return shortest(key.high) + unit + " or less";
+  return key.choices.empty() ? "" : "one of " + joined(key.choices);
+}
+
+}  // namespace
+
+std::span<const Key> common_keys() {
+  static const std::vector<Key> keys = {
+      {.path = "model", .type = KeyType::text, .help = "the model that simulates the cases"},
+      {.path = "title", .type = KeyType::text, .standard = "\"\"", .help = "title of the report"},
+      {.path = "description",
+       .type = KeyType::text,
+       .standard = "\"\"",
+       .help = "what the study shows, a paragraph at the head of the report"},
+      {.path = "source", .type = KeyType::text, .standard = "\"\"", .help = "the publication that is reproduced"},
+      {.path = "seed",
+       .type = KeyType::integer,
+       .low = 0,
+       .high = 9007199254740992.0,
+       .standard = "1",
+       .help = "of all random numbers; another seed is another specimen"},
+      {.path = "figures",
+       .type = KeyType::texts,
+       .standard = "[]",
+       .help = "ids of the figures to draw (see --list-figures); empty: those that belong to the scenario's name"},
+      {.path = "comparisons",
+       .type = KeyType::text,
+       .standard = "\"\"",
+       .help = "name of the table of published numbers in assets; empty: the one of the scenario's name"},
+  };
+  return keys;
+}
+
+std::string explain(std::span<const Key> keys) {
+  std::string text;
+  std::string table;
+  for (const Key& key : keys) {
+    const std::size_t dot = key.path.rfind('.');
+    const std::string here = dot == std::string::npos ? "" : key.path.substr(0, dot);
+    if (here != table) {
+      table = here;
+      const bool list = table.ends_with("[]");
+      text += "\n" + (list ? "[[" + table.substr(0, table.size() - 2) + "]]" : "[" + table + "]") + "\n";
+    }
+    text += "  " + key.path.substr(dot == std::string::npos ? 0 : dot + 1) + ": " + type_text(key);
+    if (const std::string limit = limit_text(key); !limit.empty()) text += ", " + limit;
+    text += key.standard.empty() ? ", required" : ", default " + key.standard;
+    text += "\n      " + key.help + "\n";
+  }
+  return text;
+}
+
+}  // namespace dem

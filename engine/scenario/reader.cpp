@@ -1,0 +1,402 @@
+#include "engine/scenario/reader.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <stdexcept>
+
+#include "engine/core/files.h"
+#include "engine/scenario/convert.h"
+#include "engine/scenario/suggest.h"
+
+namespace dem::scenario_detail {
+namespace {
+
+const std::vector<std::string> scale_names = {"smoke", "draft", "paper", "high"};
+
+/// What one layer (the file, a scale, an override) says.
+struct Layer {
+  std::map<std::string, ReadValue, std::less<>> values;
+  std::map<std::string, std::size_t, std::less<>> counts;
+  std::map<std::string, Location, std::less<>> tables;  ///< where each table and list entry begins
+};
+
+/// The declarations, by path and by table.
+class Declared {
+ public:
+  explicit Declared(std::vector<Key> keys) : keys_(std::move(keys)) {
+    for (const Key& key : keys_) {
+      if (!by_path_.emplace(key.path, &key).second) {
+        throw std::logic_error("the scenario key " + key.path + " is declared twice");
+      }
+      for (std::size_t dot = key.path.find('.'); dot != std::string::npos; dot = key.path.find('.', dot + 1)) {
+        tables_.insert(key.path.substr(0, dot));
+      }
+    }
+  }
+  Declared(const Declared&) = delete;
+  Declared& operator=(const Declared&) = delete;
+
+  [[nodiscard]] const std::vector<Key>& keys() const { return keys_; }
+  [[nodiscard]] const Key* find(std::string_view pattern) const {
+    const auto at = by_path_.find(pattern);
+    return at == by_path_.end() ? nullptr : at->second;
+  }
+  /// Whether `pattern` ("specimen", "mineral[]") holds declared keys.
+  [[nodiscard]] bool has_table(std::string_view pattern) const { return tables_.contains(pattern); }
+
+  /// What would be right in the place of the unknown `pattern`.
+  [[nodiscard]] std::string advice_for(std::string_view pattern) const {
+    const std::size_t dot = pattern.rfind('.');
+    const std::string table(dot == std::string_view::npos ? "" : pattern.substr(0, dot + 1));
+    const std::string leaf(pattern.substr(table.size()));
+    std::vector<std::string> siblings;
+    std::vector<std::string> all;
+    for (const auto& [path, key] : by_path_) {
+      all.push_back(path);
+      if (path.starts_with(table)) siblings.push_back(child(path, table.size()));
+    }
+    siblings.erase(std::unique(siblings.begin(), siblings.end()), siblings.end());
+    const std::string known = (table.empty() ? std::string("known here") : "known in " + header(table)) + ": ";
+    std::string near = closest(leaf, siblings);
+    if (!near.empty()) near = table + near;
+    if (near.empty()) near = closest(pattern, all);
+    if (near.empty()) near = same_leaf(leaf);
+    return (near.empty() ? "" : "did you mean '" + near + "'? ") + known + joined(siblings);
+  }
+
+ private:
+  /// "specimen.diameter" from 0 -> "specimen"; from 9 -> "diameter"
+  static std::string child(const std::string& path, std::size_t from) {
+    std::string name = path.substr(from, path.find('.', from) - from);
+    return name.ends_with("[]") ? name.substr(0, name.size() - 2) : name;
+  }
+  static std::string header(const std::string& table) {
+    const std::string name = table.substr(0, table.size() - 1);
+    return name.ends_with("[]") ? "[[" + name.substr(0, name.size() - 2) + "]]" : "[" + name + "]";
+  }
+  /// A declared key of the same last word in another table.
+  [[nodiscard]] std::string same_leaf(const std::string& leaf) const {
+    for (const auto& [path, key] : by_path_) {
+      if (path.ends_with("." + leaf)) return path;
+    }
+    return {};
+  }
+
+  std::vector<Key> keys_;
+  std::map<std::string, const Key*, std::less<>> by_path_;
+  std::set<std::string, std::less<>> tables_;
+};
+
+/// Walks a file. Problems are collected, so that the first in the file is told, not the first in the alphabet.
+class Walk {
+ public:
+  Walk(const std::string& file, const Declared& declared) : file_(file), declared_(declared) {}
+
+  /// Reads `table` as keys below `path`; `shown` goes before the key in messages ("scales.draft.").
+  void table(const toml::table& table, const std::string& path, const std::string& shown, Layer& layer) {
+    layer.tables[path] = location(file_, table.source());
+    for (const auto& [key, node] : table) {
+      const std::string name(key.str());
+      const std::string full = path.empty() ? name : path + "." + name;
+      entry(full, name, node, location(file_, key.source()), shown, layer);
+    }
+  }
+
+  void scales(const toml::node& node, std::map<std::string, Layer, std::less<>>& layers) {
+    const auto* table_of_scales = node.as_table();
+    if (!table_of_scales) {
+      problem({location(file_, node.source()), "scales", "wrong type", "write tables such as [scales.draft.specimen]"});
+      return;
+    }
+    for (const auto& [key, content] : *table_of_scales) {
+      const std::string name(key.str());
+      const Location where = location(file_, key.source());
+      if (std::ranges::find(scale_names, name) == scale_names.end()) {
+        problem({where, "scales." + name, "unknown scale", advice(name, scale_names, "the scales are")});
+      } else if (const auto* one = content.as_table()) {
+        table(*one, "", "scales." + name + ".", layers[name]);
+      } else {
+        problem({where, "scales." + name, "wrong type", "write a table, [scales." + name + "], even when it is empty"});
+      }
+    }
+  }
+
+  void problem(InputError error) { problems_.push_back(std::move(error)); }
+
+  void throw_first() const {
+    if (problems_.empty()) return;
+    throw *std::ranges::min_element(
+        problems_, {}, [](const InputError& error) { return std::pair(error.where().line, error.where().column); });
+  }
+
+ private:
+  void entry(const std::string& path, const std::string& name, const toml::node& node, const Location& where,
+             const std::string& shown, Layer& layer) {
+    const std::string pattern = pattern_of(path);
+    const bool plain = name.find_first_of(".[]") == std::string::npos;
+    if (const Key* key = plain ? declared_.find(pattern) : nullptr) {
+      guarded([&] { layer.values[path] = {convert(*key, node, where, shown + path), where, true}; });
+    } else if (plain && declared_.has_table(pattern)) {
+      if (const auto* inner = node.as_table()) return table(*inner, path, shown, layer);
+      problem({where, shown + path, node.is_array_of_tables() ? "is one table, not a list" : "is a table, not a value",
+               "write [" + shown + path + "] once, with its keys below"});
+    } else if (plain && declared_.has_table(pattern + "[]")) {
+      list(path, node, where, shown, layer);
+    } else {
+      const std::string kind = node.is_table() || node.is_array_of_tables() ? "unknown table" : "unknown key";
+      problem({where, shown + path, kind, declared_.advice_for(pattern)});
+    }
+  }
+
+  void list(const std::string& path, const toml::node& node, const Location& where, const std::string& shown,
+            Layer& layer) {
+    const auto* entries = node.as_array();
+    const std::string header = "write each entry below its own [[" + shown + path + "]]";
+    if (!entries) return problem({where, shown + path, "is a list of tables", header});
+    if (entries->empty()) return problem({where, shown + path, "the list is empty", header});
+    layer.counts[path] = entries->size();
+    for (std::size_t i = 0; i < entries->size(); ++i) {
+      const auto* one = entries->get(i)->as_table();
+      if (!one) return problem({where, shown + path, "is a list of tables", header});
+      table(*one, path + "[" + std::to_string(i) + "]", shown, layer);
+    }
+  }
+
+  template <class Action>
+  void guarded(Action action) {
+    try {
+      action();
+    } catch (const InputError& error) {
+      problem(error);
+    }
+  }
+
+  const std::string& file_;
+  const Declared& declared_;
+  std::vector<InputError> problems_;
+};
+
+toml::table parse(const std::string& text, const std::string& file) {
+  try {
+    return toml::parse(text, file);
+  } catch (const toml::parse_error& error) {
+    throw InputError(location(file, error.source()), {}, "not TOML: " + std::string(error.description()),
+                     "values are numbers, true or false, \"texts\" or [lists]");
+  }
+}
+
+/// The declarations of the file's model, errors about the model placed in the file.
+std::vector<Key> declarations(const toml::table& root, const std::string& file, const std::optional<std::string>& named,
+                              const KeysOf& keys_of) {
+  const toml::node* node = root.get("model");
+  std::string model = named.value_or("");
+  Location where{file, 0, 0};
+  if (node && !named) {
+    where = location(file, node->source());
+    const auto* text = node->as_string();
+    if (!text) throw InputError(where, "model", "wrong type", "write the name of a model in quotes");
+    model = text->get();
+  }
+  try {
+    const std::span<const Key> common = common_keys();
+    const std::span<const Key> own = keys_of(model);
+    std::vector<Key> keys(common.begin(), common.end());
+    keys.insert(keys.end(), own.begin(), own.end());
+    return keys;
+  } catch (const InputError& error) {
+    const bool missing = !node && !named;
+    throw InputError(where, "model", missing ? "the key is missing" : "unknown model '" + model + "'", error.right());
+  }
+}
+
+/// One --set: "key=value".
+struct Override {
+  std::string path;
+  std::string text;  ///< the whole of it, for messages
+  toml::table parsed;
+};
+
+Override parse_override(const std::string& text) {
+  const Location where{"--set", 0, 0};
+  const std::size_t equals = text.find('=');
+  const std::string example = "write --set key=value, such as --set seed=2 or --set 'title=\"My title\"'";
+  if (equals == std::string::npos) throw InputError(where, text, "there is no '='", example);
+  std::string path = text.substr(0, equals);
+  while (path.ends_with(' ')) path.pop_back();
+  const std::string value = text.substr(equals + 1);
+  if (path.empty()) throw InputError(where, text, "there is no key before '='", example);
+  if (value.find_first_not_of(" \t") == std::string::npos) {
+    throw InputError(where, path, "there is no value after '='", example);
+  }
+  try {
+    toml::table parsed = toml::parse("value = " + value);
+    if (parsed.size() != 1) throw InputError(where, path, "more than one value", example);
+    return {path, text, std::move(parsed)};
+  } catch (const toml::parse_error&) {
+    throw InputError(
+        where, path, "'" + value + "' is not a TOML value",
+        "texts and quantities need their quotes, which the shell takes away: --set '" + path + "=\"" + value + "\"'");
+  }
+}
+
+void apply_override(const Override& override, const Declared& declared, ReadScenario& scenario) {
+  const Location where{"--set", 0, 0};
+  const std::string pattern = pattern_of(override.path);
+  const Key* key = declared.find(pattern);
+  if (!key) {
+    if (declared.has_table(pattern) || declared.has_table(pattern + "[]")) {
+      throw InputError(where, override.path, "is a table, not a key", declared.advice_for(pattern + "."));
+    }
+    throw InputError(where, override.path, "unknown key", declared.advice_for(pattern));
+  }
+  for (std::size_t open = override.path.find('['); open != std::string::npos;
+       open = override.path.find('[', open + 1)) {
+    const std::string list = override.path.substr(0, open);
+    const auto count = scenario.counts.find(list);
+    const std::size_t size = count == scenario.counts.end() ? 0 : count->second;
+    const std::size_t close = override.path.find(']', open);
+    const std::string index = override.path.substr(open + 1, close - open - 1);
+    const bool number =
+        !index.empty() && index.size() < 7 && index.find_first_not_of("0123456789") == std::string::npos;
+    if (!number || std::stoul(index) >= size) {
+      throw InputError(where, override.path, "no such entry",
+                       list + " has " + std::to_string(size) + " entries, counted from 0");
+    }
+  }
+  scenario.values[override.path] = {convert(*key, *override.parsed.get("value"), where, override.path), where, true};
+}
+
+/// Lays `layer` over `scenario`. A list of tables replaces the list below it as a whole.
+void lay_over(const Layer& layer, ReadScenario& scenario) {
+  for (const auto& [list, count] : layer.counts) {
+    const std::string start = list + "[";
+    std::erase_if(scenario.values, [&](const auto& item) { return item.first.starts_with(start); });
+    std::erase_if(scenario.counts, [&](const auto& item) { return item.first.starts_with(start); });
+    scenario.counts[list] = count;
+  }
+  for (const auto& [list, count] : layer.counts) scenario.counts[list] = count;
+  for (const auto& [path, value] : layer.values) scenario.values[path] = value;
+}
+
+/// Every concrete path of a declared pattern: "mineral[].share" -> "mineral[0].share", ...
+void concrete_paths(const std::string& pattern, const ReadScenario& scenario, std::vector<std::string>& paths) {
+  const std::size_t open = pattern.find("[]");
+  if (open == std::string::npos) {
+    paths.push_back(pattern);
+    return;
+  }
+  const std::string list = pattern.substr(0, open);
+  const auto count = scenario.counts.find(list);
+  for (std::size_t i = 0; count != scenario.counts.end() && i < count->second; ++i) {
+    concrete_paths(list + "[" + std::to_string(i) + "]" + pattern.substr(open + 2), scenario, paths);
+  }
+}
+
+/// Puts the defaults in, or says which required key is missing, at the table that lacks it.
+void complete(const Declared& declared, const std::string& file, std::span<const Layer* const> layers,
+              ReadScenario& scenario) {
+  for (const Key& key : declared.keys()) {
+    std::vector<std::string> paths;
+    concrete_paths(key.path, scenario, paths);
+    for (const std::string& path : paths) {
+      if (scenario.values.contains(path)) continue;
+      if (!key.standard.empty()) {
+        scenario.values[path] = {standard_value(key), Location{file, 0, 0}, false};
+        continue;
+      }
+      Location where{file, 0, 0};
+      const std::size_t dot = path.rfind('.');
+      for (const Layer* layer : layers) {
+        const auto table = layer->tables.find(dot == std::string::npos ? std::string() : path.substr(0, dot));
+        if (dot != std::string::npos && table != layer->tables.end()) where = table->second;
+      }
+      throw InputError(where, path, "the key is missing", "add " + expectation(key) + " (" + key.help + ")");
+    }
+  }
+}
+
+/// Numbered entries only: "mineral[2]" is an index, "mineral[]" and "mineral[x]" are for the caller to refuse.
+bool digits(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+}  // namespace
+
+std::string pattern_of(std::string_view path) {
+  std::string pattern;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    pattern += path[i];
+    if (path[i] != '[') continue;
+    const std::size_t close = path.find(']', i);
+    if (close != std::string_view::npos && digits(path.substr(i + 1, close - i - 1))) i = close - 1;
+  }
+  return pattern;
+}
+
+std::string read_text(const std::string& file) {
+  namespace fs = std::filesystem;
+  const fs::path path(file);
+  std::error_code error;
+  const bool folder = fs::is_directory(path, error);
+  if (folder || !fs::exists(path, error)) {
+    std::vector<std::string> near;
+    const fs::path around = folder ? path : path.has_parent_path() ? path.parent_path() : fs::path(".");
+    for (fs::directory_iterator at(around, error), end; !error && at != end; at.increment(error)) {
+      if (at->path().extension() == ".toml")
+        near.push_back((folder || path.has_parent_path() ? at->path() : at->path().filename()).string());
+    }
+    std::ranges::sort(near);
+    const std::string right =
+        near.empty() ? "give the path of a scenario file (.toml)" : advice(file, near, "the scenarios there are");
+    throw InputError(Location{file, 0, 0}, {}, folder ? "this is a folder, not a scenario" : "there is no such file",
+                     right);
+  }
+  try {
+    return read_file(path);
+  } catch (const EnvironmentError& failure) {
+    throw InputError(Location{file, 0, 0}, {}, failure.what(), "give a file that you may read");
+  }
+}
+
+ReadScenario read_scenario(const std::string& file, std::string_view scale, std::span<const std::string> overrides,
+                           const KeysOf& keys_of) {
+  const toml::table root = parse(read_text(file), file);
+  std::vector<Override> parsed;
+  std::optional<std::string> model;
+  for (const std::string& text : overrides) {
+    parsed.push_back(parse_override(text));
+    if (parsed.back().path == "model") model = parsed.back().parsed["value"].value<std::string>();
+  }
+  const Declared declared(declarations(root, file, model, keys_of));
+
+  Walk walk(file, declared);
+  Layer base;
+  std::map<std::string, Layer, std::less<>> scales;
+  toml::table plain = root;
+  plain.erase("scales");
+  walk.table(plain, "", "", base);
+  if (const toml::node* node = root.get("scales")) walk.scales(*node, scales);
+  walk.throw_first();
+
+  const auto chosen = scales.find(scale);
+  if (chosen == scales.end()) {
+    std::vector<std::string> names;
+    for (const std::string& name : scale_names) {
+      if (scales.contains(name)) names.push_back(name);
+    }
+    throw InputError(Location{file, 0, 0}, "--scale", "this scenario has no scale '" + std::string(scale) + "'",
+                     names.empty() ? "add a table [scales." + std::string(scale) + "], which may be empty"
+                                   : "it has: " + joined(names));
+  }
+  ReadScenario scenario;
+  lay_over(base, scenario);
+  lay_over(chosen->second, scenario);
+  for (const Override& override : parsed) apply_override(override, declared, scenario);
+  const std::array<const Layer*, 2> layers = {&base, &chosen->second};
+  complete(declared, file, layers, scenario);
+  return scenario;
+}
+
+}  // namespace dem::scenario_detail

@@ -1,0 +1,131 @@
+#include "engine/scenario/scenario.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+#include "engine/scenario/reader.h"
+#include "engine/scenario/units.h"
+
+namespace dem {
+namespace {
+
+[[noreturn]] void defect(std::string_view path, const std::string& what) {
+  throw std::logic_error("scenario key '" + std::string(path) + "' " + what);
+}
+
+template <class T>
+const T& typed(const Value& value, std::string_view path) {
+  const T* found = std::get_if<T>(&value);
+  if (!found) defect(path, "is asked for as another type than it is declared");
+  return *found;
+}
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '\n') {
+      out += "\\n";
+    } else {
+      if (c == '"' || c == '\\') out += '\\';
+      out += c;
+    }
+  }
+  return out + "\"";
+}
+
+std::string written(bool value) { return value ? "true" : "false"; }
+std::string written(std::int64_t value) { return std::to_string(value); }
+std::string written(double value) { return shortest(value); }
+std::string written(const std::string& value) { return quoted(value); }
+template <class T>
+std::string written(const std::vector<T>& values) {
+  std::string text = "[";
+  for (const T& value : values) text += (text.size() > 1 ? ", " : "") + written(value);
+  return text + "]";
+}
+
+}  // namespace
+
+Scenario Scenario::read(const std::string& file, std::string_view scale, std::span<const std::string> overrides,
+                        const std::function<std::span<const Key>(std::string_view model)>& keys_of) {
+  scenario_detail::ReadScenario read = scenario_detail::read_scenario(file, scale, overrides, keys_of);
+  Scenario scenario;
+  scenario.name_ = std::filesystem::path(file).stem().string();
+  scenario.file_ = file;
+  scenario.scale_ = scale;
+  for (auto& [path, item] : read.values) {
+    scenario.entries_[path] = {std::move(item.value), std::move(item.where), item.given};
+  }
+  scenario.counts_ = std::move(read.counts);
+  return scenario;
+}
+
+const Scenario::Entry& Scenario::entry(std::string_view path) const {
+  const auto at = entries_.find(path);
+  if (at == entries_.end()) defect(path, "is not declared");
+  return at->second;
+}
+
+bool Scenario::boolean(std::string_view path) const { return typed<bool>(entry(path).value, path); }
+std::int64_t Scenario::integer(std::string_view path) const { return typed<std::int64_t>(entry(path).value, path); }
+double Scenario::real(std::string_view path) const {
+  const Value& value = entry(path).value;
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
+  return typed<double>(value, path);
+}
+const std::string& Scenario::text(std::string_view path) const { return typed<std::string>(entry(path).value, path); }
+const std::vector<std::int64_t>& Scenario::integers(std::string_view path) const {
+  return typed<std::vector<std::int64_t>>(entry(path).value, path);
+}
+const std::vector<double>& Scenario::reals(std::string_view path) const {
+  return typed<std::vector<double>>(entry(path).value, path);
+}
+const std::vector<std::string>& Scenario::texts(std::string_view path) const {
+  return typed<std::vector<std::string>>(entry(path).value, path);
+}
+std::size_t Scenario::count(std::string_view list) const {
+  const auto at = counts_.find(list);
+  return at == counts_.end() ? 0 : at->second;
+}
+bool Scenario::given(std::string_view path) const {
+  const auto at = entries_.find(path);
+  if (at != entries_.end()) return at->second.given;
+  return counts_.contains(path);
+}
+
+Scenario Scenario::with(std::string_view path, Value value) const {
+  if (entry(path).value.index() != value.index()) defect(path, "is replaced by a value of another type");
+  Scenario copy = *this;
+  copy.entries_.find(path)->second.value = std::move(value);
+  return copy;
+}
+
+InputError Scenario::error(std::string_view path, const std::string& wrong, std::string right) const {
+  Location where{file_, 0, 0};
+  const auto at = entries_.find(path);
+  if (at != entries_.end()) {
+    where = at->second.where;
+  } else {
+    // A table or a list: where its first given key stands.
+    for (const auto& [name, entry] : entries_) {
+      const bool inside =
+          name.size() > path.size() && name.starts_with(path) && (name[path.size()] == '.' || name[path.size()] == '[');
+      const bool earlier = where.line == 0 || entry.where.line < where.line;
+      if (inside && entry.given && entry.where.line > 0 && earlier) where = entry.where;
+    }
+  }
+  return {where, std::string(path), wrong, std::move(right)};
+}
+
+std::string Scenario::canonical(std::span<const std::string> prefixes) const {
+  std::string text;
+  for (const auto& [path, entry] : entries_) {
+    const auto starts = [&path = path](const std::string& prefix) { return path.starts_with(prefix); };
+    if (std::ranges::none_of(prefixes, starts)) continue;
+    text += path + " = " + std::visit([](const auto& value) { return written(value); }, entry.value) + "\n";
+  }
+  return text;
+}
+
+}  // namespace dem
