@@ -52,7 +52,7 @@ struct Bars {
   std::vector<std::vector<double>> errors;  ///< empty: none
   bool stacked = false;
   bool print_values = false;
-  std::string value_format = "{:.0f}";      ///< fmt format of printed values
+  std::string value_format = "{:.0f}";  ///< fmt format of printed values
   Side side = Side::left;
 };
 
@@ -68,19 +68,27 @@ struct Mark {
 
 struct Chart;
 struct Inset {
-  std::vector<Chart> chart;             ///< exactly one (a vector, so that the type may contain itself)
-  std::array<double, 4> place{};        ///< left, bottom, width, height as fractions of the plot area
+  std::vector<Chart> chart;       ///< exactly one (a vector, so that the type may contain itself)
+  std::array<double, 4> place{};  ///< left, bottom, width, height as fractions of the plot area
 };
 
 struct Chart {
-  std::string title;  ///< usually empty: captions belong to the page
+  std::string title;    ///< usually empty: captions belong to the page
   Axis x, left, right;  ///< the right axis is drawn when something uses it
   std::vector<Band> bands;
   std::vector<Series> series;
   std::optional<Bars> bars;  ///< with bars, x is the axis of categories
   std::vector<Mark> marks;
   std::vector<Inset> insets;
-  enum class Legend { none, top_left, top_right, bottom_left, bottom_right, outside_right, below } legend = Legend::top_left;
+  enum class Legend {
+    none,
+    top_left,
+    top_right,
+    bottom_left,
+    bottom_right,
+    outside_right,
+    below
+  } legend = Legend::top_left;
   int width = 720, height = 480;  ///< px at 100 dpi; PNG is drawn at twice that
 };
 

@@ -1,7 +1,9 @@
 #pragma once
 // Scenes: a specimen drawn as spheres, discs (cracks) and lines (axes), in one camera view. Lengths in metres.
-// Text, legends and scale bars are not part of the raster: the page composes them (render::SceneResult tells the scale).
+// Text, legends and scale bars are not part of the raster: the page composes them (render::SceneResult tells the
+// scale).
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,7 +38,7 @@ struct Polyline {
 /// A surface outline of the specimen: a transparent cylinder or box.
 struct Outline {
   enum class Shape { none, cylinder, box } shape = Shape::none;
-  Point low{}, high{};    ///< bounds; a cylinder stands along z
+  Point low{}, high{};  ///< bounds; a cylinder stands along z
   Colour colour{0.6, 0.6, 0.6};
   double opacity = 0.15;
 };
@@ -44,8 +46,10 @@ struct Outline {
 struct Camera {
   Point direction{0, -1, 0};  ///< from the eye into the scene
   Point up{0, 0, 1};
-  bool parallel = true;       ///< parallel projection: lengths can be read with the scale bar
+  bool parallel = true;  ///< parallel projection: lengths can be read with the scale bar
   double zoom = 1.0;
+  /// Bounds to fit into the picture, so that several pictures share one scale; absent: all that is drawn.
+  std::optional<std::array<Point, 2>> frame;
 };
 
 struct Scene {
@@ -67,6 +71,9 @@ struct Scene {
 struct SceneResult {
   double metres_per_pixel = 0;  ///< parallel projection only
   int width = 0, height = 0;
+  Point centre{};       ///< the point in the middle of the picture
+  Point right{}, up{};  ///< unit vectors along the picture's sides: a point p is drawn (p - centre) . right /
+                        ///< metres_per_pixel to the right of the middle
 };
 
 }  // namespace render
