@@ -1,6 +1,7 @@
 #include "engine/scenario/reader.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -99,6 +100,7 @@ class Walk {
     layer.tables[path] = location(file_, table.source());
     for (const auto& [key, node] : table) {
       const std::string name(key.str());
+      if (path.empty() && shown.empty() && name == "scales") continue;  // read by scales()
       const std::string full = path.empty() ? name : path + "." + name;
       entry(full, name, node, location(file_, key.source()), shown, layer);
     }
@@ -274,7 +276,6 @@ void lay_over(const Layer& layer, ReadScenario& scenario) {
     const std::string start = list + "[";
     std::erase_if(scenario.values, [&](const auto& item) { return item.first.starts_with(start); });
     std::erase_if(scenario.counts, [&](const auto& item) { return item.first.starts_with(start); });
-    scenario.counts[list] = count;
   }
   for (const auto& [list, count] : layer.counts) scenario.counts[list] = count;
   for (const auto& [path, value] : layer.values) scenario.values[path] = value;
@@ -310,7 +311,7 @@ void complete(const Declared& declared, const std::string& file, std::span<const
       const std::size_t dot = path.rfind('.');
       for (const Layer* layer : layers) {
         const auto table = layer->tables.find(dot == std::string::npos ? std::string() : path.substr(0, dot));
-        if (dot != std::string::npos && table != layer->tables.end()) where = table->second;
+        if (dot != std::string::npos && where.line == 0 && table != layer->tables.end()) where = table->second;
       }
       throw InputError(where, path, "the key is missing", "add " + expectation(key) + " (" + key.help + ")");
     }
@@ -374,9 +375,7 @@ ReadScenario read_scenario(const std::string& file, std::string_view scale, std:
   Walk walk(file, declared);
   Layer base;
   std::map<std::string, Layer, std::less<>> scales;
-  toml::table plain = root;
-  plain.erase("scales");
-  walk.table(plain, "", "", base);
+  walk.table(root, "", "", base);
   if (const toml::node* node = root.get("scales")) walk.scales(*node, scales);
   walk.throw_first();
 

@@ -1,0 +1,303 @@
+// Bad scenarios, one kind a row: where it is (line), which key, what is wrong, what would be right.
+#include <doctest/doctest.h>
+
+#include <optional>
+
+#include "tests/unit/scenario_keys.h"
+
+using test::changed;
+using test::good;
+using test::read;
+
+namespace {
+
+struct Bad {
+  const char* kind;
+  std::string text;
+  int line;
+  std::string key;
+  std::vector<std::string> said;  ///< parts of the message
+  std::vector<std::string> overrides = {};
+  std::string scale = "paper";
+};
+
+std::optional<dem::InputError> error_of(const Bad& bad) {
+  try {
+    read(bad.text, bad.overrides, bad.scale);
+  } catch (const dem::InputError& error) {
+    return error;
+  }
+  return {};
+}
+
+std::vector<Bad> bad_scenarios() {
+  const std::string diameter = "diameter = \"25 mm\"";
+  return {
+      {"unknown key",
+       changed(good, "diameter", "daimeter"),
+       5,
+       "specimen.daimeter",
+       {"unknown key", "did you mean 'specimen.diameter'?", "known in [specimen]: diameter, height"}},
+      {"unknown key far from any",
+       changed(good, diameter, diameter + "\ncolour = 3"),
+       6,
+       "specimen.colour",
+       {"unknown key", "known in [specimen]: diameter"}},
+      {"key in the wrong table",
+       changed(good, "title =", "cohesion = \"1 MPa\"\ntitle ="),
+       2,
+       "cohesion",
+       {"unknown key", "did you mean 'mineral[].cohesion'?"}},
+      {"unknown table",
+       changed(good, "[specimen]", "[specimn]"),
+       4,
+       "specimn",
+       {"unknown table", "did you mean 'specimen'?"}},
+      {"unknown key in a list",
+       changed(good, "share = \"60 %\"", "shares = \"60 %\""),
+       9,
+       "mineral[0].shares",
+       {"unknown key", "did you mean 'mineral[].share'?"}},
+      {"unknown key in a scale that is not asked for",
+       changed(good, "diameter = \"12.5 mm\"", "diamter = \"12.5 mm\""),
+       19,
+       "scales.draft.specimen.diamter",
+       {"unknown key", "did you mean 'specimen.diameter'?"}},
+      {"dotted name in quotes",
+       changed(good, "title", "\"specimen.height\" = \"5 mm\"\ntitle"),
+       2,
+       "specimen.height",
+       {"unknown key"}},
+      {"bare number where a unit is needed",
+       changed(good, "\"25 mm\"", "25"),
+       5,
+       "specimen.diameter",
+       {"the bare number 25 has no unit", "such as \"25 mm\""}},
+      {"number without unit in quotes",
+       changed(good, "\"25 mm\"", "\"25\""),
+       5,
+       "specimen.diameter",
+       {"has no unit", "write \"25 mm\""}},
+      {"another dimension",
+       changed(good, "\"25 mm\"", "\"25 MPa\""),
+       5,
+       "specimen.diameter",
+       {"in units of stress, but length is needed", "(mm, m, cm, um, km)"}},
+      {"unknown unit",
+       changed(good, "\"0.3 GPa\"", "\"0.3 Gpa\""),
+       13,
+       "mineral[1].cohesion",
+       {"unknown unit 'Gpa'", "did you mean 'GPa'?"}},
+      {"no number",
+       changed(good, "\"25 mm\"", "\"wide\""),
+       5,
+       "specimen.diameter",
+       {"does not begin with a number", "write a number and a unit"}},
+      {"broken number",
+       changed(good, "\"25 mm\"", "\"2.5.1 mm\""),
+       5,
+       "specimen.diameter",
+       {"'2.5.1' is not a number"}},
+      {"out of range, shown in the declared unit",
+       changed(good, "\"25 mm\"", "\"0.9 m\""),
+       5,
+       "specimen.diameter",
+       {"900 mm is out of range", "allowed is from 1 mm to 500 mm"}},
+      {"share above 100 %",
+       changed(good, "\"60 %\"", "\"160 %\""),
+       9,
+       "mineral[0].share",
+       {"160 % is out of range", "from 0 % to 100 %"}},
+      {"below an open range",
+       changed(good, "\"0.3 GPa\"", "\"-1 MPa\""),
+       13,
+       "mineral[1].cohesion",
+       {"-1 MPa is out of range", "allowed is 0 MPa or more"}},
+      {"text where a number is needed",
+       changed(good, diameter, diameter + "\nratio = \"1.66\""),
+       6,
+       "specimen.ratio",
+       {"wrong type", "without quotes"}},
+      {"fraction where a whole number is needed",
+       changed(good, diameter, diameter + "\nlayers = 2.5"),
+       6,
+       "specimen.layers",
+       {"wrong type: the number 2.5", "a whole number, from 1 to 9"}},
+      {"whole number out of range",
+       changed(good, diameter, diameter + "\nlayers = 12"),
+       6,
+       "specimen.layers",
+       {"12 is out of range", "from 1 to 9"}},
+      {"not finite", changed(good, diameter, diameter + "\nratio = nan"), 6, "specimen.ratio", {"not a finite number"}},
+      {"word where true or false is needed",
+       changed(good, diameter, diameter + "\nperiodic = \"yes\""),
+       6,
+       "specimen.periodic",
+       {"wrong type: the text \"yes\"", "true or false, without quotes"}},
+      {"number where a text is needed",
+       changed(good, "\"A study\"", "12"),
+       2,
+       "title",
+       {"wrong type: the number 12", "in quotes"}},
+      {"bad choice",
+       changed(good, diameter, diameter + "\nshape = \"cylindre\""),
+       6,
+       "specimen.shape",
+       {"'cylindre' is not a choice", "did you mean 'cylinder'?", "the choices are: cylinder, prism"}},
+      {"bad choice in a list",
+       changed(good, "[sweep]", "[sweep]\ntests = [\"compression\", \"torsion\"]"),
+       16,
+       "sweep.tests[1]",
+       {"'torsion' is not a choice", "compression, tension"}},
+      {"one value where a list is needed",
+       changed(good, "[1, 2.5]", "2"),
+       16,
+       "sweep.aspect_ratio",
+       {"where a list is needed", "in square brackets"}},
+      {"empty sweep",
+       changed(good, "[1, 2.5]", "[]"),
+       16,
+       "sweep.aspect_ratio",
+       {"the list is empty", "at least one value"}},
+      {"list element out of range, at its own line",
+       changed(good, "[1, 2.5]", "[1,\n 0.5]"),
+       17,
+       "sweep.aspect_ratio[1]",
+       {"0.5 is out of range", "from 1 to 10"}},
+      {"list element of another type",
+       changed(good, "[1, 2.5]", "[1, \"2\"]"),
+       16,
+       "sweep.aspect_ratio[1]",
+       {"wrong type"}},
+      {"date", changed(good, "\"A study\"", "2021-05-05"), 2, "title", {"wrong type: a date or time"}},
+      {"table where a value is needed",
+       changed(good, "diameter = \"25 mm\"", "[specimen.diameter]\nx = 1"),
+       5,
+       "specimen.diameter",
+       {"wrong type: a table", "a quantity, such as \"1 mm\""}},
+      {"value where a table is needed",
+       "model = \"rock\"\nspecimen = 3\n[scales.paper]\n",
+       2,
+       "specimen",
+       {"is a table, not a value", "[specimen]"}},
+      {"list where one table is needed",
+       changed(good, "[specimen]", "[[specimen]]"),
+       4,
+       "specimen",
+       {"is one table, not a list"}},
+      {"one table where a list is needed",
+       "model = \"rock\"\n[mineral]\nname = \"x\"\n[scales.paper]\n",
+       2,
+       "mineral",
+       {"is a list of tables", "[[mineral]]"}},
+      {"missing key",
+       changed(good, diameter, ""),
+       4,
+       "specimen.diameter",
+       {"the key is missing", "\"1 mm\"", "of the cylinder"}},
+      {"missing key with its table missing",
+       "model = \"rock\"\n[scales.paper]\n",
+       0,
+       "specimen.diameter",
+       {"the key is missing"}},
+      {"missing key in a list", changed(good, "name = \"mica\"\n", ""), 10, "mineral[1].name", {"the key is missing"}},
+      {"missing model",
+       changed(good, "model = \"rock\"", ""),
+       0,
+       "model",
+       {"the key is missing", "the models are: rock"}},
+      {"unknown model",
+       changed(good, "\"rock\"", "\"rok\""),
+       1,
+       "model",
+       {"unknown model 'rok'", "the models are: rock"}},
+      {"model of a wrong type", changed(good, "\"rock\"", "3"), 1, "model", {"wrong type", "in quotes"}},
+      {"key twice", changed(good, diameter, diameter + "\n" + diameter), 6, "", {"not TOML", "diameter"}},
+      {"table twice", good + "[specimen]\nheight = \"5 mm\"\n", 21, "", {"not TOML", "specimen"}},
+      {"not TOML", changed(good, "title = \"A study\"", "title = A study"), 2, "", {"not TOML"}},
+      {"open quotes", changed(good, "\"A study\"", "\"A study"), 2, "", {"not TOML"}},
+      {"not UTF-8", changed(good, "A study", "A st\xffudy"), 2, "", {"not TOML"}},
+      {"empty file", "", 0, "model", {"the key is missing"}},
+      {"scale that is not there", good, 0, "--scale", {"has no scale 'smoke'", "it has: draft, paper"}, {}, "smoke"},
+      {"no scales at all",
+       "model = \"rock\"\n[specimen]\ndiameter = \"5 mm\"\n",
+       0,
+       "--scale",
+       {"has no scale 'paper'", "add a table [scales.paper]"}},
+      {"unknown scale",
+       changed(good, "[scales.paper]", "[scales.papier]"),
+       20,
+       "scales.papier",
+       {"unknown scale", "did you mean 'paper'?", "smoke, draft, paper, high"}},
+      {"scale that is no table",
+       changed(good, "[scales.paper]", "[scales]\npaper = 1"),
+       21,
+       "scales.paper",
+       {"write a table, [scales.paper]"}},
+      {"negative seed", changed(good, "title", "seed = -1\ntitle"), 2, "seed", {"-1 is out of range", "from 0 to"}},
+      {"--set without value", good, 0, "seed", {"there is no value after '='"}, {"seed="}},
+      {"--set without =", good, 0, "seed", {"there is no '='", "--set key=value"}, {"seed"}},
+      {"--set without key", good, 0, "=3", {"there is no key before '='"}, {"=3"}},
+      {"--set of an unknown key", good, 0, "sed", {"--set: sed: unknown key", "did you mean 'seed'?"}, {"sed=1"}},
+      {"--set of a table", good, 0, "specimen", {"is a table, not a key", "diameter"}, {"specimen=1"}},
+      {"--set out of range", good, 0, "specimen.layers", {"11 is out of range"}, {"specimen.layers=11"}},
+      {"--set that lost its quotes",
+       good,
+       0,
+       "specimen.diameter",
+       {"'5 mm' is not a TOML value", "--set 'specimen.diameter=\"5 mm\"'"},
+       {"specimen.diameter=5 mm"}},
+      {"--set of an entry that is not there",
+       good,
+       0,
+       "mineral[2].share",
+       {"no such entry", "mineral has 2 entries"},
+       {"mineral[2].share=\"1 %\""}},
+      {"--set of a list without index", good, 0, "mineral[].share", {"no such entry"}, {"mineral[].share=\"1 %\""}},
+      {"--set of two values", good, 0, "seed", {"more than one value"}, {"seed=1\ntitle=\"x\""}},
+  };
+}
+
+}  // namespace
+
+TEST_CASE("every kind of bad scenario says where, which key, and what would be right") {
+  const std::vector<Bad> all = bad_scenarios();
+  CHECK(all.size() >= 25);
+  for (const Bad& bad : all) {
+    CAPTURE(bad.kind);
+    const std::optional<dem::InputError> error = error_of(bad);
+    REQUIRE(error.has_value());
+    const std::string message = error->what();
+    CAPTURE(message);
+    CHECK(error->key() == bad.key);
+    CHECK(error->where().line == bad.line);
+    if (bad.overrides.empty()) CHECK(error->where().file.ends_with("study.toml"));
+    if (bad.line > 0) CHECK(message.find("study.toml:" + std::to_string(bad.line) + ":") != std::string::npos);
+    CHECK(message.find(';') != std::string::npos);
+    for (const std::string& part : bad.said) CHECK(message.find(part) != std::string::npos);
+  }
+}
+
+TEST_CASE("of several mistakes the first in the file is told") {
+  const std::string text = changed(changed(good, "\"0.3 GPa\"", "3"), "\"60 %\"", "\"600 %\"");
+  CHECK_THROWS_WITH_AS(read(text), doctest::Contains("mineral[0].share"), dem::InputError);
+}
+
+TEST_CASE("a missing file, a folder: the message lists the scenarios that are there") {
+  const test::Scratch folder;
+  std::ofstream(folder / "granite.toml") << good;
+  const auto message = [&](const std::string& file) -> std::string {
+    try {
+      dem::Scenario::read(file, "paper", {}, test::keys_of);
+    } catch (const dem::InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  const std::string there = (folder / "granite.toml").string();
+  CHECK(message(folder / "granit.toml") == (folder / "granit.toml").string() +
+                                               ": there is no such file; did you mean '" + there +
+                                               "'? the scenarios there are: " + there);
+  CHECK(message(folder.path()).find("this is a folder, not a scenario") != std::string::npos);
+  CHECK(message(folder / "nowhere/x.toml").find("give the path of a scenario file") != std::string::npos);
+}
