@@ -1,0 +1,12 @@
+#include "reports/figure.h"
+
+#include <algorithm>
+
+namespace reports {
+
+const dem::Record* StudyResult::find(std::string_view id) const {
+  const auto found = std::ranges::find(cases, id, &CaseResult::id);
+  return found == cases.end() ? nullptr : found->record;
+}
+
+}  // namespace reports

@@ -1,0 +1,179 @@
+#include "reports/figures/energy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/figures/table.h"
+#include "reports/figures/texture_parts.h"
+#include "reports/ledger.h"
+#include "reports/text.h"
+
+namespace reports {
+namespace {
+
+constexpr int panel_width = 460;
+constexpr int panel_height = 350;
+
+double largest(std::span<const double> values) {
+  double most = 0;
+  for (const double v : values) {
+    if (std::isfinite(v)) most = std::max(most, std::abs(v));
+  }
+  return most;
+}
+
+std::vector<double> scaled(std::span<const double> values, double factor) {
+  std::vector<double> out;
+  for (const double v : values) out.push_back(factor * v);
+  return out;
+}
+
+// The work that came in: the sum of all columns that are work.
+std::vector<double> work_of(const dem::Table& history, const std::vector<LedgerTerm>& terms) {
+  std::vector<double> work(history.rows(), 0.0);
+  for (const LedgerTerm& term : terms) {
+    if (term.role != LedgerTerm::Role::work) continue;
+    const auto values = history.real(term.column);
+    for (std::size_t i = 0; i < work.size(); ++i) work[i] += values[i];
+  }
+  return work;
+}
+
+render::Colour share_colour(std::size_t index) {
+  constexpr std::array<std::size_t, 7> order{5, 7, 2, 4, 0, 1, 3};
+  return render::palette(order[index % order.size()]);
+}
+
+render::Chart ledger_chart(const dem::Table& history, const std::string& x_column, const std::string& x_title, double x_factor,
+                           std::pair<double, std::string> unit) {
+  const auto terms = ledger_terms(history);
+  const auto x = scaled(history.real(x_column), x_factor);
+  const auto work = work_of(history, terms);
+  render::Chart chart;
+  std::vector<double> base(x.size(), 0.0);
+  std::size_t shares = 0;
+  for (const LedgerTerm& term : terms) {
+    if (term.role != LedgerTerm::Role::share) continue;
+    render::Band band{.label = term.label, .x = x, .low = base, .high = base, .colour = share_colour(shares++)};
+    const auto values = history.real(term.column);
+    for (std::size_t i = 0; i < x.size(); ++i) band.high[i] += unit.first * values[i];
+    base = band.high;
+    chart.bands.push_back(std::move(band));
+  }
+  chart.series.push_back({.label = "Work of the platens", .x = x, .y = scaled(work, unit.first), .colour = {0, 0, 0},
+                          .width = 1.8, .y_error = {}});
+  chart.x.title = x_title;
+  chart.left.title = "Energy (" + unit.second + ")";
+  chart.legend = render::Chart::Legend::top_left;
+  chart.width = panel_width;
+  chart.height = panel_height;
+  return chart;
+}
+
+// |residual| over max(W, 1e-2 W_peak), the measure of the check.
+render::Series relative_residual(const dem::Table& history, const std::string& x_column, double x_factor) {
+  const auto terms = ledger_terms(history);
+  const auto work = work_of(history, terms);
+  const double peak = largest(work);
+  const auto x = history.real(x_column);
+  const auto residual = history.real("residual");
+  render::Series series;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double floor = std::max(std::abs(work[i]), 1e-2 * peak);
+    if (!(floor > 0) || !std::isfinite(residual[i])) continue;
+    const double ratio = std::abs(residual[i]) / floor;
+    if (ratio <= 0) continue;  // a logarithmic axis
+    series.x.push_back(x_factor * x[i]);
+    series.y.push_back(ratio);
+  }
+  return series;
+}
+
+double limit_of(const dem::Record& record) {
+  const auto found = std::ranges::find(record.checks, "energy_residual", &dem::Check::id);
+  return found == record.checks.end() ? std::nan("") : found->limit;
+}
+
+std::string shares_alt(const dem::Table& history) {
+  const auto terms = ledger_terms(history);
+  const auto work = work_of(history, terms);
+  if (work.empty() || !(work.back() != 0)) return {};
+  std::vector<std::string> parts;
+  for (const LedgerTerm& term : terms) {
+    if (term.role != LedgerTerm::Role::share) continue;
+    std::string label = term.label;
+    label[0] = static_cast<char>(std::tolower(label[0]));
+    parts.push_back(label + " " + percent(history.real(term.column).back() / work.back(), 1));
+  }
+  return "Of the work, at the end: " + listed(parts) + ".";
+}
+
+}  // namespace
+
+FigureContent energy_figure(const StudyResult& study, std::string_view test, const std::vector<SeriesCase>& cases,
+                            const std::string& x_column, const std::string& x_title, double x_factor) {
+  FigureContent content;
+  content.statement = "The paper gives no energies. The account is kept because a simulation whose energies do not add up "
+                      "cannot be trusted.";
+  if (auto missing = missing_cases(study, test)) content.panels.push_back(*missing);
+  double most = 0;
+  std::vector<const SeriesCase*> kept;
+  for (const SeriesCase& item : cases) {
+    const dem::Table* history = item.record->find("history");
+    if (!history || ledger_terms(*history).empty()) {
+      content.panels.push_back(note_panel("none_" + item.id, item.label, "This record keeps no energies."));
+      continue;
+    }
+    kept.push_back(&item);
+    most = std::max(most, largest(work_of(*history, ledger_terms(*history))));
+  }
+  render::Chart residuals;
+  double limit = std::nan("");
+  double worst = 0;
+  for (const SeriesCase* item : kept) {
+    const dem::Table& history = item->record->table("history");
+    content.panels.push_back({.id = item->id, .caption = item->label + ".", .alt = item->label + ". " + shares_alt(history),
+                              .content = ledger_chart(history, x_column, x_title, x_factor, energy_unit(most))});
+    render::Series series = relative_residual(history, x_column, x_factor);
+    series.label = item->label;
+    series.colour = item->colour;
+    series.line = item->line;
+    worst = std::max(worst, largest(series.y));
+    if (!series.x.empty()) residuals.series.push_back(series);
+    limit = limit_of(*item->record);
+  }
+  if (kept.empty()) return content;
+  if (!residuals.series.empty()) {
+    if (std::isfinite(limit)) {
+      residuals.marks.push_back({.kind = render::Mark::Kind::horizontal, .x = 0, .y = limit, .label = "limit", .colour = {0.64, 0.15, 0.1}});
+    }
+    residuals.x.title = x_title;
+    residuals.left.title = "|Residual| / work";
+    residuals.left.logarithmic = true;
+    if (std::isfinite(limit)) residuals.left.high = 10 * std::max(limit, worst);
+    residuals.legend = render::Chart::Legend::bottom_right;
+    residuals.width = panel_width;
+    residuals.height = panel_height;
+    content.panels.push_back({.id = "residual", .caption = "Residual of the ledger against its limit; work is taken as at least 1 % of its largest value.",
+                              .alt = "Largest residual " + number(worst, 2) + " of the work, limit " + number(limit, 2) + ".",
+                              .content = residuals});
+  }
+  content.finding = fmt::format("{} The largest residual is {} of the work{}.", shares_alt(kept.front()->record->table("history")),
+                                number(worst, 2), std::isfinite(limit) ? " (limit " + number(limit, 2) + ")" : "");
+  return content;
+}
+
+namespace texture {
+
+FigureContent energy_compression(const StudyResult& study) {
+  return energy_figure(study, test_compression, swept(study, test_compression), "axial_strain", "Axial strain (%)", 100);
+}
+
+FigureContent energy_tension(const StudyResult& study) {
+  return energy_figure(study, test_tension, swept(study, test_tension), "axial_strain", "Axial strain (%)", 100);
+}
+
+}  // namespace texture
+}  // namespace reports

@@ -1,0 +1,196 @@
+// Crack maps and counts against the aspect ratio (Zhao et al. 2021, Fig. 15) and stages of cracking (Fig. 9).
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "reports/figures/table.h"
+#include "reports/figures/texture_parts.h"
+#include "reports/text.h"
+
+namespace reports::texture {
+namespace {
+
+double crack_result(const dem::Record& record, const CrackClass& one) {
+  return result_or_nan(record, "cracks." + std::string(one.id));
+}
+
+std::string crack_alt(const dem::Record& record, std::size_t count, const std::string& what) {
+  return what + " " + crack_words(crack_numbers(record, count)) + ".";
+}
+
+struct Stage {
+  std::string_view moment, name;
+};
+constexpr std::array stages{Stage{"stable_growth", "Stable crack growth"}, Stage{"damage", "Crack damage"},
+                            Stage{"unstable_growth", "Unstable crack growth"}, Stage{"post_peak", "After the peak"},
+                            Stage{"end", "End of loading"}};
+
+const dem::Table* snapshot(const dem::Record& record, std::string_view moment) {
+  for (const dem::Table& table : record.tables) {
+    if (table.name.starts_with("snapshots/") && table.attribute("moment") == moment) return &table;
+  }
+  return nullptr;
+}
+
+std::size_t cracks_so_far(const dem::Table& moment) {
+  const std::string text = moment.attribute("cracks");
+  return text.empty() ? 0 : static_cast<std::size_t>(std::stoull(text));
+}
+
+std::string at_strain(const dem::Table& moment) {
+  const std::string strain = moment.attribute("strain");
+  const std::string stress = moment.attribute("stress");
+  if (strain.empty() || stress.empty()) return {};
+  return fmt::format("Axial strain {} %, stress {} MPa.", number(100 * std::stod(strain), 3),
+                     number(1e-6 * std::stod(stress), 3));
+}
+
+// Which pairs of minerals share most of the inter-grain tension cracks among the first `count`.
+std::string weakest_boundary(const dem::Record& record, std::size_t count) {
+  const dem::Table& cracks = record.table("cracks");
+  const auto a = cracks.integer("mineral_a");
+  const auto b = cracks.integer("mineral_b");
+  const auto place = cracks.integer("place");
+  std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> pairs;
+  std::size_t all = 0;
+  for (std::size_t i = 0; i < std::min(count, cracks.rows()); ++i) {
+    if (place[i] != 1) continue;
+    ++pairs[std::minmax(a[i], b[i])];
+    ++all;
+  }
+  if (all == 0) return {};
+  const auto most = std::ranges::max_element(pairs, {}, [](const auto& item) { return item.second; });
+  const auto names = minerals_of(record);
+  return fmt::format("{} of the inter-grain cracks lie between {} and {}",
+                     percent(static_cast<double>(most->second) / static_cast<double>(all), 0),
+                     names.at(static_cast<std::size_t>(most->first.first)),
+                     names.at(static_cast<std::size_t>(most->first.second)));
+}
+
+}  // namespace
+
+FigureContent crack_maps(const StudyResult& study) {
+  FigureContent content;
+  content.statement = "The failure modes at aspect ratios 1, 2 and 3 look alike; cracks spread through the whole specimen.";
+  const auto cases = swept(study, test_compression);
+  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  const int per_row = cases.size() <= 3 ? 3 : 4;
+  for (const SeriesCase& item : cases) {
+    content.panels.push_back({.id = "discs_" + item.id,
+                              .caption = "All cracks as discs in the transparent specimen.",
+                              .alt = crack_alt(*item.record, all_cracks, "Cracks at " + item.label + ":"),
+                              .content = transparent_cracks(*item.record, all_cracks, item.label, 480),
+                              .per_row = per_row});
+  }
+  for (const SeriesCase& item : cases) {
+    content.panels.push_back({.id = "section_" + item.id,
+                              .caption = "Cracks within one mean particle diameter of the longitudinal section, over the minerals.",
+                              .alt = "Section at " + item.label + " with the traces of the cracks near it over the minerals.",
+                              .content = section_cracks(*item.record, all_cracks, item.label, 480),
+                              .per_row = per_row});
+  }
+  std::vector<std::string> totals;
+  for (const SeriesCase& item : cases) {
+    std::size_t total = 0;
+    for (const std::size_t n : crack_numbers(*item.record, all_cracks)) total += n;
+    totals.push_back(count(static_cast<double>(total)) + " at " + item.label);
+  }
+  if (!totals.empty()) content.finding = "Cracks at the end of loading: " + listed(totals) + ".";
+  return content;
+}
+
+FigureContent crack_counts(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "The number of cracks grows with the aspect ratio in every class, most for tension; shear within grains changes "
+      "little, shear between grains more.";
+  const auto cases = swept(study, test_compression);
+  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  if (cases.empty()) return content;
+  render::Bars bars{.print_values = true};
+  std::vector<std::string> said;
+  for (const CrackClass& one : crack_classes()) bars.categories.emplace_back(one.name);
+  bars.categories.emplace_back("all");
+  for (const SeriesCase& item : cases) {
+    bars.labels.push_back(item.label);
+    bars.colours.push_back(item.colour);
+    std::vector<double> values;
+    double total = 0;
+    for (const CrackClass& one : crack_classes()) {
+      const double n = crack_result(*item.record, one);
+      values.push_back(std::isfinite(n) ? n : 0);
+      total += values.back();
+    }
+    values.push_back(total);
+    bars.values.push_back(values);
+    std::vector<std::string> parts;
+    for (std::size_t k = 0; k < values.size(); ++k) parts.push_back(count(values[k]) + " " + bars.categories[k]);
+    said.push_back(item.label + ": " + joined(parts, ", "));
+  }
+  render::Chart chart;
+  chart.x.title = "Class of crack";
+  chart.left.title = "Number of cracks";
+  chart.bars = bars;
+  chart.legend = render::Chart::Legend::top_left;
+  chart.width = 760;
+  chart.height = 400;
+  content.panels.push_back({.id = "", .caption = "Cracks at the end of loading, by class and aspect ratio.",
+                            .alt = joined(said, "; ") + ".", .content = chart});
+  std::vector<std::string> parts;
+  for (const CrackClass& one : crack_classes()) {
+    parts.push_back(std::string(one.name) + " " +
+                    by_case(cases, [&](const dem::Record& r) { return crack_result(r, one); }, 6, ""));
+  }
+  content.finding = "Cracks at " + joined([&] {
+                      std::vector<std::string> labels;
+                      for (const SeriesCase& item : cases) labels.push_back(item.label);
+                      return labels;
+                    }(), ", ") + ": " + joined(parts, "; ") + ".";
+  return content;
+}
+
+FigureContent crack_stages(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "First come tension cracks on grain boundaries, scattered and mostly beside alkali feldspar; tension cracks then "
+      "spread within grains until crack damage; shear within grains follows in unstable growth and crosses whole grains; "
+      "shear on grain boundaries comes after the peak.";
+  const auto cases = swept(study, test_compression);
+  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  if (cases.empty()) return content;
+  const SeriesCase& base = cases.front();
+  std::vector<Panel> discs, sections;
+  std::vector<std::string> said;
+  for (const Stage& stage : stages) {
+    const dem::Table* moment = snapshot(*base.record, stage.moment);
+    if (!moment) continue;
+    const std::size_t so_far = cracks_so_far(*moment);
+    said.push_back(count(static_cast<double>(so_far)) + " (" + words(stage.moment) + ")");
+    discs.push_back({.id = std::string(stage.moment) + "_discs",
+                     .caption = at_strain(*moment),
+                     .alt = crack_alt(*base.record, so_far, std::string(stage.name) + ":"),
+                     .content = transparent_cracks(*base.record, so_far, std::string(stage.name), 340),
+                     .per_row = 5});
+    sections.push_back({.id = std::string(stage.moment) + "_section",
+                        .caption = "Near the section.",
+                        .alt = std::string(stage.name) + ": traces of the cracks near the section, over the minerals.",
+                        .content = section_cracks(*base.record, so_far, std::string(stage.name), 340),
+                        .per_row = 5});
+  }
+  if (discs.empty()) {
+    content.panels.push_back(note_panel("none", "Stages of cracking.", "The record of " + base.record->case_id + " keeps no snapshots."));
+    return content;
+  }
+  content.panels.insert(content.panels.end(), discs.begin(), discs.end());
+  content.panels.insert(content.panels.end(), sections.begin(), sections.end());
+  content.finding = "At " + base.label + ", cracks so far: " + listed(said) + ".";
+  const dem::Table* first = snapshot(*base.record, "stable_growth");
+  if (first) {
+    const std::string boundary = weakest_boundary(*base.record, cracks_so_far(*first));
+    if (!boundary.empty()) content.finding += " In stable growth " + boundary + ".";
+  }
+  return content;
+}
+
+}  // namespace reports::texture

@@ -1,0 +1,59 @@
+#pragma once
+// Colours, crack classes and scenes of the grain texture model, as its figures share them.
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "reports/figures/parts.h"
+
+namespace reports::texture {
+
+inline constexpr std::string_view test_compression = "compression";
+inline constexpr std::string_view test_tension = "direct_tension";
+
+/// Cases of a test along the parameter that the scenario sweeps: the aspect ratio, or the dip when only that varies.
+std::vector<SeriesCase> swept(const StudyResult& study, std::string_view test);
+
+/// The four classes of cracks, in the order of every legend. Their colours stay apart for colour-blind readers (hues of
+/// Okabe and Ito 2008) and in grey print (luminance 0.47, 0.00, 0.28, 0.62).
+struct CrackClass {
+  std::string_view id, name;
+  int place, mode;          ///< as in the table cracks
+  render::Colour colour;
+};
+const std::array<CrackClass, 4>& crack_classes();
+
+/// Names of the minerals by index, and the colours that the paper gives them; others take the palette's.
+std::vector<std::string> minerals_of(const dem::Record& record);
+render::Colour mineral_colour(std::string_view mineral);
+
+struct Size {
+  double diameter = 0, height = 0;  ///< m
+  double z_low = 0;                 ///< where the specimen stands
+};
+Size size_of(const dem::Record& record);
+
+/// Particles as spheres, a tone a grain so that grains of one mineral can be told apart.
+render::Spheres particles_by_mineral(const dem::Record& record);
+
+/// A scene of the whole specimen, seen along y, with the frame fixed to its size so that cases share one scale.
+render::Scene specimen_scene(const dem::Record& record, int width);
+/// The same, cut by the plane y = 0 of its axis.
+render::Scene section_scene(const dem::Record& record, int width);
+
+/// The first `count` cracks of a record as discs, or as traces on the plane y = 0: cracks within one mean particle diameter.
+std::vector<render::Discs> crack_discs(const dem::Record& record, std::size_t count);
+std::vector<render::Polyline> crack_traces(const dem::Record& record, std::size_t count, double width);
+std::array<std::size_t, 4> crack_numbers(const dem::Record& record, std::size_t count);
+
+/// Two pictures of the first `count` cracks: discs in the transparent specimen, traces on the section.
+inline constexpr std::size_t all_cracks = std::numeric_limits<std::size_t>::max();
+Picture transparent_cracks(const dem::Record& record, std::size_t count, const std::string& label, int width);
+Picture section_cracks(const dem::Record& record, std::size_t count, const std::string& label, int width);
+/// "1 204 inter tension, 12 inter shear, ..."
+std::string crack_words(const std::array<std::size_t, 4>& numbers);
+
+std::vector<LegendEntry> mineral_legend(const dem::Record& record);
+
+}  // namespace reports::texture

@@ -1,0 +1,20 @@
+#pragma once
+// The energy ledger of a record: every column of its history that is an energy, whatever the model.
+// Columns whose name begins with "work" come in, "residual" is what is left, all others are where the energy is or went.
+#include <string>
+#include <vector>
+
+#include "engine/core/record.h"
+
+namespace reports {
+
+struct LedgerTerm {
+  std::string column;  ///< of the history table
+  std::string label;   ///< "Damping"
+  enum class Role { work, share, residual } role = Role::share;
+};
+
+/// The energy columns (unit J) of a history, in its order; empty when it keeps none.
+std::vector<LedgerTerm> ledger_terms(const dem::Table& history);
+
+}  // namespace reports

@@ -1,0 +1,83 @@
+#include "reports/page.h"
+
+#include <nlohmann/json.hpp>
+
+#include "engine/core/errors.h"
+#include "engine/core/files.h"
+#include "reports/page_parts.h"
+
+namespace reports {
+namespace {
+
+using Json = nlohmann::json;
+
+Json asset(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) return Json::array();
+  try {
+    return Json::parse(dem::read_file(file));
+  } catch (const Json::exception& error) {
+    throw dem::EnvironmentError("the asset " + file.filename().string() + " cannot be read: " + error.what());
+  }
+}
+
+// A list of objects of texts, as it is.
+PageData list_of(const Json& items) {
+  PageData list{PageData::type::list};
+  for (const Json& item : items) {
+    PageData entry;
+    for (const auto& [key, value] : item.items()) entry.set(key, value.get<std::string>());
+    list.push_back(entry);
+  }
+  return list;
+}
+
+std::string command(const StudyResult& study, const ReportOptions& options) {
+  if (!options.command.empty()) return options.command;
+  const dem::Scenario& scenario = *study.scenario;
+  return "dem-report scenarios/" + scenario.name() + ".toml --scale " + scenario.scale() + " --seed " +
+         std::to_string(scenario.seed());
+}
+
+}  // namespace
+
+std::string page(const StudyResult& study, const Comparisons& comparisons, const std::vector<DrawnFigure>& figures,
+                 const ReportOptions& options) {
+  const dem::Scenario& scenario = *study.scenario;
+  kainjow::mustache::mustache pattern(dem::read_file(options.assets / "report.html"));
+  if (!pattern.is_valid()) {
+    throw dem::EnvironmentError("the page template report.html is broken: " + pattern.error_message());
+  }
+  const std::string model_file = scenario.model() + ".json";
+  PageData data = title_data(study, options);
+  data.set("style", dem::read_file(options.assets / "report.css"));
+  data.set("cases", cases_data(study));
+  data.set("findings", findings_data(study, comparisons, figures));
+  data.set("results", results_data(study));
+  data.set("published", comparisons_data(comparisons));
+  data.set("figures", figures_data(figures, options.folder));
+  data.set("ledger", ledger_data(study));
+  data.set("checks", checks_data(study));
+  data.set("notes", notes_data(study));
+  data.set("choices", list_of(asset(options.assets / "choices" / model_file)));
+  data.set("citations", list_of(asset(options.assets / "citations" / model_file)));
+  data.set("command", command(study, options));
+  if (std::filesystem::exists(scenario.file())) data.set("scenario_text", dem::read_file(scenario.file()));
+  return pattern.render(data);
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned int group = 0;
+    const std::size_t taken = std::min<std::size_t>(3, bytes.size() - i);
+    for (std::size_t k = 0; k < 3; ++k) {
+      group = group << 8U | (k < taken ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    }
+    for (std::size_t k = 0; k < 4; ++k) text += k <= taken ? digits[group >> (18U - 6U * k) & 63U] : '=';
+  }
+  return text;
+}
+
+}  // namespace reports

@@ -1,0 +1,477 @@
+#include "reports/page_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "engine/core/files.h"
+#include "reports/ledger.h"
+#include "reports/page.h"
+#include "reports/text.h"
+
+namespace reports {
+namespace {
+
+PageData new_list() { return PageData{PageData::type::list}; }
+
+// {"cell": text} for each text.
+PageData cells(const std::vector<std::string>& texts) {
+  PageData list = new_list();
+  for (const std::string& text : texts) list.push_back(PageData{"cell", text});
+  return list;
+}
+
+PageData table_row(const std::string& name, const std::vector<std::string>& values) {
+  PageData row;
+  row.set("name", name);
+  row.set("cells", cells(values));
+  return row;
+}
+
+std::string parameter_name(const std::string& name) {
+  if (name == "aspect_ratio") return "AR";
+  return words(name);
+}
+
+std::string test_of(const dem::Record& record) {
+  for (const auto& [name, value] : record.parameters) {
+    if (name == "test") return parameter_text(value);
+  }
+  return {};
+}
+
+std::string capital(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
+/// Cases with a record, by test, in report order.
+std::vector<std::pair<std::string, std::vector<const CaseResult*>>> by_test(const StudyResult& study) {
+  std::vector<std::pair<std::string, std::vector<const CaseResult*>>> groups;
+  for (const CaseResult& result : study.cases) {
+    if (!result.record) continue;
+    const std::string test = test_of(*result.record);
+    auto group = std::ranges::find(groups, test, [](const auto& g) { return g.first; });
+    if (group == groups.end()) group = groups.insert(groups.end(), {test, {}});
+    group->second.push_back(&result);
+  }
+  return groups;
+}
+
+std::string shown_result(std::string_view name, double value) {
+  if (!std::isfinite(value)) return "–";
+  const bool whole = std::floor(value) == value && std::abs(value) < 1e15;
+  if (whole) return count(value);
+  if (name.find("strain") != std::string_view::npos && name.find("MPa") == std::string_view::npos) {
+    return number(100 * value, 3) + " %";
+  }
+  if (name.find("share") != std::string_view::npos) return percent(value, 1);
+  return number(value, 3);
+}
+
+bool in_a_figure(std::string_view name) {
+  return name.starts_with("mineral_share.") || name.starts_with("contact_share.");
+}
+
+std::string specimen_text(const StudyResult& study) {
+  for (const CaseResult& result : study.cases) {
+    if (!result.record) continue;
+    const dem::Table* particles = result.record->find("particles");
+    if (!particles) continue;
+    const std::string diameter = particles->attribute("diameter");
+    const std::string height = particles->attribute("height");
+    std::string text = count(static_cast<double>(particles->rows())) + " particles";
+    if (!diameter.empty() && !height.empty()) {
+      text = fmt::format("{:g} mm × {:g} mm, {}", 1e3 * std::stod(diameter), 1e3 * std::stod(height), text);
+    }
+    return text;
+  }
+  return {};
+}
+
+std::string amount_text(const Amount& amount, const std::string& unit) {
+  const std::string tail = unit.empty() ? "" : " " + unit;
+  if (const auto* text = std::get_if<std::string>(&amount)) return *text;
+  if (const auto* range = std::get_if<std::pair<double, double>>(&amount)) {
+    return number(range->first, 4) + " to " + number(range->second, 4) + tail;
+  }
+  return number(std::get<double>(amount), 4) + tail;
+}
+
+// Of a share of something, "%" becomes points.
+std::string difference_unit(const std::string& unit) { return unit == "%" ? "points" : unit; }
+
+std::string deviation_text(const Comparison& row) {
+  if (!row.deviation) return "–";
+  if (row.relative) return with_sign(fixed(100 * *row.deviation, 1)) + " %";
+  return with_sign(number(*row.deviation, 2)) + (row.unit.empty() ? "" : " " + difference_unit(row.unit));
+}
+
+std::string tolerance_text(const Comparison& row) {
+  if (!row.tolerance) return row.kind == "trend" ? "by sign" : "–";
+  if (row.relative) return "± " + number(100 * *row.tolerance, 2) + " %";
+  return "± " + number(*row.tolerance, 2) + (row.unit.empty() ? "" : " " + difference_unit(row.unit));
+}
+
+std::string data_uri(const std::filesystem::path& file) {
+  const std::string type = file.extension() == ".svg" ? "image/svg+xml" : "image/png";
+  return "data:" + type + ";base64," + base64(dem::read_file(file));
+}
+
+std::string colour_code(const render::Colour& colour) {
+  const auto part = [](double value) { return static_cast<int>(std::lround(255 * std::clamp(value, 0.0, 1.0))); };
+  return fmt::format("#{:02x}{:02x}{:02x}", part(colour.red), part(colour.green), part(colour.blue));
+}
+
+PageData panel_data(const DrawnPanel& panel, const std::filesystem::path& folder) {
+  PageData data;
+  data.set("letter", panel.letter);
+  data.set("has_letter", !panel.letter.empty());
+  data.set("caption", panel.caption);
+  data.set("alt", panel.alt);
+  data.set("label", panel.label);
+  data.set("has_label", !panel.label.empty());
+  data.set("note", panel.note);
+  data.set("has_note", !panel.note.empty());
+  data.set("has_image", !panel.image.empty());
+  if (!panel.image.empty()) {
+    data.set("image", data_uri(folder / panel.image));
+    data.set("has_size", panel.width > 0);
+    data.set("width", std::to_string(panel.width));
+    data.set("height", std::to_string(panel.height));
+  }
+  data.set("has_bar", panel.bar.percent > 0);
+  data.set("bar_text", panel.bar.text);
+  data.set("bar_percent", fmt::format("{:.2f}", panel.bar.percent));
+  PageData legend = new_list();
+  for (const LegendEntry& entry : panel.legend) {
+    PageData item;
+    item.set("colour", colour_code(entry.colour));
+    item.set("text", entry.text);
+    legend.push_back(item);
+  }
+  data.set("has_legend", !panel.legend.empty());
+  data.set("legend", legend);
+  data.set("has_table", !panel.table.head.empty());
+  data.set("table_head", cells(panel.table.head));
+  PageData rows = new_list();
+  for (const auto& row : panel.table.rows) {
+    if (row.empty()) continue;
+    rows.push_back(table_row(row.front(), {row.begin() + 1, row.end()}));
+  }
+  data.set("table_rows", rows);
+  PageData files = new_list();
+  for (const std::string& file : panel.files) {
+    PageData item;
+    item.set("file", file);
+    std::string kind = std::filesystem::path(file).extension().string().substr(1);
+    std::ranges::transform(kind, kind.begin(), [](char c) { return static_cast<char>(std::toupper(c)); });
+    item.set("kind", kind);
+    files.push_back(item);
+  }
+  data.set("files", files);
+  return data;
+}
+
+// Neighbours that go beside each other share a row.
+PageData rows_data(const std::vector<DrawnPanel>& panels, const std::filesystem::path& folder) {
+  PageData rows = new_list();
+  for (std::size_t i = 0; i < panels.size();) {
+    const int per_row = std::max(1, panels[i].per_row);
+    PageData row;
+    PageData members = new_list();
+    for (int taken = 0; i < panels.size() && taken < per_row && std::max(1, panels[i].per_row) == per_row; ++taken) {
+      members.push_back(panel_data(panels[i++], folder));
+    }
+    row.set("per_row", std::to_string(per_row));
+    row.set("panels", members);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+double last_finite(std::span<const double> values) {
+  for (std::size_t i = values.size(); i-- > 0;) {
+    if (std::isfinite(values[i])) return values[i];
+  }
+  return 0;
+}
+
+std::optional<PageData> ledger_table(const StudyResult& study, const std::vector<const CaseResult*>& group,
+                                     const std::string& test) {
+  std::vector<const CaseResult*> kept;
+  double largest = 0;
+  for (const CaseResult* result : group) {
+    const dem::Table* history = result->record->find("history");
+    if (!history || ledger_terms(*history).empty()) continue;
+    kept.push_back(result);
+    for (const LedgerTerm& term : ledger_terms(*history)) {
+      largest = std::max(largest, std::abs(last_finite(history->real(term.column))));
+    }
+  }
+  if (kept.empty()) return std::nullopt;
+  const auto [factor, unit] = energy_unit(largest);
+  std::vector<std::string> heads;
+  for (const CaseResult* result : kept) heads.push_back(case_label(study, *result));
+  PageData rows = new_list();
+  for (const LedgerTerm& term : ledger_terms(kept.front()->record->table("history"))) {
+    std::vector<std::string> values;
+    for (const CaseResult* result : kept) {
+      const dem::Table& history = result->record->table("history");
+      values.push_back(history.has(term.column) ? number(factor * last_finite(history.real(term.column)), 4) : "–");
+    }
+    PageData row = table_row(term.label, values);
+    row.set("strong", term.role != LedgerTerm::Role::share);
+    rows.push_back(row);
+  }
+  PageData table;
+  table.set("test", capital(test));
+  table.set("unit", unit);
+  table.set("heads", cells(heads));
+  table.set("rows", rows);
+  return table;
+}
+
+}  // namespace
+
+std::string case_label(const StudyResult& study, const CaseResult& result) {
+  if (!result.record) return words(result.id);
+  const std::string test = test_of(*result.record);
+  std::vector<std::string> parts;
+  for (const auto& [name, value] : result.record->parameters) {
+    if (name == "test") continue;
+    const auto differs = [&, &own_name = name, &own = value](const CaseResult& other) {
+      if (!other.record) return false;
+      return std::ranges::any_of(other.record->parameters,
+                                 [&](const auto& p) { return p.first == own_name && p.second != own; });
+    };
+    if (name == "aspect_ratio" || std::ranges::any_of(study.cases, differs)) {
+      parts.push_back(parameter_name(name) + " " + parameter_text(value));
+    }
+  }
+  return parts.empty() ? capital(words(result.id)) : joined(parts, ", ");
+}
+
+PageData title_data(const StudyResult& study, const ReportOptions& options) {
+  const dem::Scenario& scenario = *study.scenario;
+  PageData data;
+  data.set("title", scenario.text("title").empty() ? capital(words(scenario.name())) : scenario.text("title"));
+  data.set("description", scenario.text("description"));
+  data.set("has_description", !scenario.text("description").empty());
+  data.set("scenario", scenario.name());
+  data.set("model", words(scenario.model()));
+  data.set("scale", scenario.scale());
+  data.set("seed", std::to_string(scenario.seed()));
+  data.set("engine_version", options.engine_version);
+  const std::string specimen = specimen_text(study);
+  data.set("has_specimen", !specimen.empty());
+  data.set("specimen", specimen);
+  const auto with_record = std::ranges::find_if(study.cases, [](const CaseResult& c) { return c.record != nullptr; });
+  const std::string physics = with_record == study.cases.end() ? "" : with_record->record->physics_version;
+  data.set("has_physics", !physics.empty());
+  data.set("physics_version", physics);
+  const auto done = std::ranges::count_if(study.cases, [](const CaseResult& c) { return c.record != nullptr; });
+  data.set("case_count", static_cast<std::size_t>(done) == study.cases.size()
+                             ? fmt::format("{}", done)
+                             : fmt::format("{} of {}", done, study.cases.size()));
+  return data;
+}
+
+PageData cases_data(const StudyResult& study) {
+  PageData list = new_list();
+  for (const CaseResult& result : study.cases) {
+    PageData row;
+    row.set("id", result.id);
+    row.set("failed", !result.record);
+    if (result.record) {
+      const dem::Record& record = *result.record;
+      std::vector<std::string> parameters;
+      for (const auto& [name, value] : record.parameters) {
+        if (name != "test") parameters.push_back(parameter_name(name) + " " + parameter_text(value));
+      }
+      row.set("test", test_of(record));
+      row.set("parameters", joined(parameters, ", "));
+      for (const char* name : {"particles", "contacts", "grains", "steps"}) {
+        row.set(name, record.has_result(name) ? count(record.result(name)) : "–");
+      }
+      row.set("seed", std::to_string(record.seed));
+    } else {
+      row.set("error", result.error.empty() ? "not run" : result.error);
+    }
+    list.push_back(row);
+  }
+  return list;
+}
+
+PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
+                       const std::vector<DrawnFigure>& figures) {
+  PageData list = new_list();
+  const auto add = [&](const std::string& text, const std::string& state, const DrawnFigure* figure = nullptr) {
+    PageData item;
+    item.set("text", text);
+    item.set("state", state);
+    item.set("has_figure", figure != nullptr);
+    if (figure) {
+      item.set("figure_id", std::string(figure->figure->id));
+      item.set("figure_number", std::to_string(figure->number));
+    }
+    list.push_back(item);
+  };
+  for (const CaseResult& result : study.cases) {
+    if (!result.record && !result.error.empty()) add("Case " + result.id + " failed: " + result.error, "bad");
+  }
+  std::size_t checks = 0;
+  std::vector<std::string> broken;
+  for (const CaseResult& result : study.cases) {
+    if (!result.record) continue;
+    for (const dem::Check& check : result.record->checks) {
+      ++checks;
+      if (!check.held) broken.push_back(words(check.id) + " of " + result.id);
+    }
+  }
+  if (!broken.empty()) add("Checks that did not hold: " + listed(broken) + ".", "bad");
+  else if (checks > 0) add(fmt::format("All {} checks of the runs held.", checks), "good");
+  const auto number_of = [&](Verdict verdict) {
+    return std::ranges::count(comparisons.rows, verdict, &Comparison::verdict);
+  };
+  if (!comparisons.rows.empty()) {
+    std::vector<std::string> missed;
+    for (const Comparison& row : comparisons.rows) {
+      if (row.verdict == Verdict::missed) missed.push_back(row.quantity + " (" + deviation_text(row) + ")");
+    }
+    std::string text = fmt::format("{} of {} published numbers and trends are met", number_of(Verdict::met),
+                                   comparisons.rows.size());
+    if (number_of(Verdict::not_computed) > 0) text += fmt::format(", {} could not be computed", number_of(Verdict::not_computed));
+    text += missed.empty() ? "." : fmt::format(", {} are missed: {}.", missed.size(), joined(missed, "; "));
+    add(text, missed.empty() ? "good" : "bad");
+  }
+  for (const DrawnFigure& figure : figures) {
+    if (!figure.finding.empty()) add(figure.finding, "plain", &figure);
+  }
+  return list;
+}
+
+PageData results_data(const StudyResult& study) {
+  PageData tables = new_list();
+  for (const auto& [test, group] : by_test(study)) {
+    std::vector<std::string> heads;
+    std::vector<std::string> names;
+    std::set<std::string> seen;
+    for (const CaseResult* result : group) {
+      heads.push_back(case_label(study, *result));
+      for (const auto& [name, value] : result->record->results) {
+        if (!in_a_figure(name) && seen.insert(name).second) names.push_back(name);
+      }
+    }
+    PageData rows = new_list();
+    for (const std::string& name : names) {
+      const auto [words_of_name, unit] = result_name(name);
+      std::vector<std::string> values;
+      for (const CaseResult* result : group) {
+        values.push_back(result->record->has_result(name) ? shown_result(name, result->record->result(name)) : "–");
+      }
+      rows.push_back(table_row(unit.empty() ? words_of_name : words_of_name + " (" + unit + ")", values));
+    }
+    PageData table;
+    table.set("test", capital(test.empty() ? "results" : test));
+    table.set("heads", cells(heads));
+    table.set("rows", rows);
+    tables.push_back(table);
+  }
+  return tables;
+}
+
+PageData comparisons_data(const Comparisons& comparisons) {
+  if (comparisons.rows.empty()) return PageData{PageData::type::list};
+  PageData rows = new_list();
+  for (const Comparison& row : comparisons.rows) {
+    PageData item;
+    item.set("quantity", row.quantity);
+    item.set("source", row.source);
+    item.set("statement", row.statement);
+    item.set("has_statement", !row.statement.empty());
+    item.set("published_value", amount_text(row.published, row.unit));
+    item.set("computed_value", row.computed ? amount_text(*row.computed, row.unit) : "–");
+    item.set("detail", row.detail);
+    item.set("has_detail", !row.detail.empty());
+    item.set("deviation", deviation_text(row));
+    item.set("tolerance", tolerance_text(row));
+    item.set("verdict", std::string(verdict_word(row.verdict)));
+    item.set("verdict_class", row.verdict == Verdict::met ? "met" : row.verdict == Verdict::missed ? "missed" : "open");
+    rows.push_back(item);
+  }
+  PageData block;
+  block.set("paper", comparisons.paper);
+  block.set("published_scale", comparisons.scale);
+  block.set("rows", rows);
+  PageData list = new_list();
+  list.push_back(block);
+  return list;
+}
+
+PageData figures_data(const std::vector<DrawnFigure>& figures, const std::filesystem::path& folder) {
+  PageData list = new_list();
+  for (const DrawnFigure& figure : figures) {
+    PageData data;
+    data.set("figure_id", std::string(figure.figure->id));
+    data.set("figure_number", std::to_string(figure.number));
+    data.set("figure_title", std::string(figure.figure->title));
+    data.set("source", std::string(figure.figure->source));
+    data.set("has_source", !figure.figure->source.empty());
+    data.set("statement", figure.statement);
+    data.set("has_statement", !figure.statement.empty());
+    data.set("finding", figure.finding);
+    data.set("has_finding", !figure.finding.empty());
+    data.set("problem", figure.problem);
+    data.set("has_problem", !figure.problem.empty());
+    data.set("panel_rows", rows_data(figure.panels, folder));
+    list.push_back(data);
+  }
+  return list;
+}
+
+PageData ledger_data(const StudyResult& study) {
+  PageData list = new_list();
+  for (const auto& [test, group] : by_test(study)) {
+    if (const auto table = ledger_table(study, group, test)) list.push_back(*table);
+  }
+  return list;
+}
+
+PageData checks_data(const StudyResult& study) {
+  PageData list = new_list();
+  for (const CaseResult& result : study.cases) {
+    if (!result.record) continue;
+    for (const dem::Check& check : result.record->checks) {
+      PageData item;
+      item.set("case", result.id);
+      item.set("check", capital(words(check.id)));
+      item.set("meaning", check.meaning);
+      item.set("value", number(check.value, 2));
+      item.set("limit", number(check.limit, 2));
+      item.set("verdict", check.held ? "held" : "broken");
+      item.set("verdict_class", check.held ? "met" : "missed");
+      list.push_back(item);
+    }
+  }
+  return list;
+}
+
+PageData notes_data(const StudyResult& study) {
+  PageData list = new_list();
+  for (const CaseResult& result : study.cases) {
+    if (!result.record) continue;
+    for (const std::string& note : result.record->notes) {
+      PageData item;
+      item.set("case", result.id);
+      item.set("note", note);
+      list.push_back(item);
+    }
+  }
+  return list;
+}
+
+}  // namespace reports

@@ -1,0 +1,50 @@
+#pragma once
+// Published numbers (assets/published/*.json) beside ours. A file:
+//   {"model": "grain_texture", "paper": "Zhao et al. 2021", "scale": "paper",
+//    "numbers": [{"id", "scenarios": ["ldb_aspect_ratio"], "source": "Section 4.1", "quantity", "unit", "statement", "kind", ...}]}
+// kind "value":   "published": 206.8 or [55, 60] (a range), "tolerance": {"relative": 0.1} or {"absolute": 0.03}, "of": TERM
+//      "trend":   "published": "rises" | "falls", "over": ["1", "2", "3"], "of": TERM; {} in case ids stands for these;
+//                 "published_values": [...] are shown beside ours
+//      "greater": "of": TERM, "than": TERM: ours must be greater, as published
+// TERM: {"case": "compression_ar_1", "result": "ucs_MPa"}, {"quotient": [TERM, TERM]}, {"sum": [TERM, ...]},
+//       {"difference": [TERM, TERM]}; "times": 100 scales any of them (a fraction to percent).
+// "optional": true leaves the number out where the scenario has not the case.
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "reports/figure.h"
+
+namespace reports {
+
+enum class Verdict { met, missed, not_computed };
+std::string_view verdict_word(Verdict verdict);  ///< "met", "missed", "not computed"
+
+/// A number, a range, or a word ("falls").
+using Amount = std::variant<double, std::pair<double, double>, std::string>;
+
+struct Comparison {
+  std::string id, source, quantity, unit, statement, kind;
+  Amount published;
+  std::optional<Amount> computed;
+  std::optional<double> deviation;   ///< relative, or absolute in `unit`; from the nearer end of a range
+  std::optional<double> tolerance;
+  bool relative = false;             ///< deviation and tolerance are fractions of the published value
+  Verdict verdict = Verdict::not_computed;
+  std::string detail;                ///< what trends are made of, or why nothing could be computed
+};
+
+struct Comparisons {
+  std::string paper;                 ///< "Zhao et al. 2021"; several joined
+  std::string scale;                 ///< at which the published numbers belong
+  std::vector<Comparison> rows;
+};
+
+/// All numbers that concern the scenario of the study. A case that failed, was left out or lacks the result gives
+/// not_computed. Throws dem::EnvironmentError naming the file and entry that cannot be understood.
+Comparisons compare(const StudyResult& study, const std::filesystem::path& published_folder);
+
+}  // namespace reports

@@ -1,0 +1,41 @@
+#pragma once
+// Numbers and words as a reader sees them. Plain data (CSV, JSON) is written elsewhere.
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/core/record.h"
+
+namespace reports {
+
+/// `value` with `digits` significant digits, a real minus sign and thin spaces between thousands: "−1 234", "0.183",
+/// "3.2 × 10⁻⁵" outside 1e-4 ... 1e7. "not a number" for NaN.
+std::string number(double value, int digits = 3);
+/// `value` with `places` decimals, a real minus sign and thin spaces.
+std::string fixed(double value, int places);
+/// A fraction as percent: percent(0.123, 1) is "12.3 %".
+std::string percent(double fraction, int places = 1);
+/// With a sign in front, also for positive values.
+std::string with_sign(std::string text);
+/// A count with thin spaces: "36 528".
+std::string count(double value);
+
+/// "a, b and c".
+std::string listed(const std::vector<std::string>& items);
+std::string joined(const std::vector<std::string>& items, std::string_view between);
+/// "inter_quartz_biotite" -> "inter quartz biotite".
+std::string words(std::string_view id);
+
+/// A name and a unit in words for a result of a record ("young_modulus_GPa" -> {"Young's modulus", "GPa"}).
+/// Names that are not in the list are read from the key: words, the last part as unit when it is one.
+std::pair<std::string, std::string> result_name(std::string_view key);
+
+/// A parameter of a record as text: numbers short, words as they are.
+std::string parameter_text(const std::variant<double, std::string>& value);
+
+/// An energy with the prefix that suits `largest`: {1e3, "mJ"}: factor from joules, unit.
+std::pair<double, std::string> energy_unit(double largest);
+
+}  // namespace reports
