@@ -1,0 +1,114 @@
+#pragma once
+// Sparse Cholesky factor of the sheet's stiffness by nested dissection of the lattice (George 1973), multifrontal
+// (Duff & Reid 1983). The lattice gives the dissection and the pattern, once for all: neither a graph partitioner nor a
+// BLAS is needed, and the result is the same bits for any number of threads and any vector width.
+//
+// Solves may start from few loaded particles: the forward sweep then visits only the path from their leaves to the
+// root, which is what makes a broken spring cheap (see modified.h).
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/sheet/dense.h"
+
+namespace dem::sheet {
+
+/// A patch of a triangular lattice: rows along x, every other row shifted right by half a spacing.
+/// Particle (column c, row r) has index r * columns + c.
+struct Lattice {
+  int columns = 0;
+  int rows = 0;
+  bool first_row_shifted = false;
+
+  [[nodiscard]] int particles() const { return columns * rows; }
+  [[nodiscard]] bool shifted(int row) const { return (row % 2 != 0) != first_row_shifted; }
+  /// Neighbour in direction 0 east, 1 north-east, 2 north-west, 3 west, 4 south-west, 5 south-east; -1 outside.
+  [[nodiscard]] int neighbour(int particle, int direction) const;
+};
+
+/// Symmetric 2 x 2 block {xx, xy, yy}.
+using Block = std::array<double, 3>;
+
+/// The stiffness matrix by blocks: `diagonal` of each particle, `coupling[direction * particles + i]` (directions 0-2)
+/// the block between i and its neighbour, already with its sign. `fixed` bit 0: x held, bit 1: y held.
+struct BlockMatrix {
+  std::vector<Block> diagonal;
+  std::vector<Block> coupling;
+  std::vector<std::uint8_t> fixed;
+};
+
+/// The elimination tree of a lattice: what does not change when the numbers do.
+class Dissection {
+ public:
+  explicit Dissection(const Lattice& lattice, int leaf_particles = 12);
+
+  struct Node {
+    int begin = 0, end = 0;           ///< positions (particles, in elimination order) eliminated here
+    int parent = -1;
+    int child[2] = {-1, -1};
+    int first = 0;                    ///< first node of the subtree; the subtree is [first, itself]
+    std::vector<int> boundary;        ///< positions coupled to the subtree from outside, ascending
+    std::vector<int> place_in_parent; ///< row (in particles) of each boundary entry in the parent's front
+    struct Entry {
+      int coupling;                   ///< index into BlockMatrix::coupling
+      int row, column;                ///< in particles, within the front
+    };
+    std::vector<Entry> entries;
+    [[nodiscard]] int own() const { return end - begin; }
+    [[nodiscard]] int front() const { return own() + static_cast<int>(boundary.size()); }
+  };
+  Lattice lattice;
+  std::vector<Node> nodes;            ///< children before parents; the last is the root
+  std::vector<int> order;             ///< particle at each position
+  std::vector<int> position;          ///< position of each particle
+  std::vector<int> node_of;           ///< node that eliminates each position
+  std::vector<std::size_t> panel_offset, update_offset;  ///< of each node; one more entry than nodes
+  std::vector<int> leading;           ///< leading dimension of each panel
+
+ private:
+  int divide(int c0, int c1, int r0, int r1, int leaf);
+  void connect(int node, int c0, int c1, int r0, int r1);
+};
+
+/// The entries of L^-1 b for a load b on few particles: nonzero on the path from their nodes to the root.
+struct PathVector {
+  std::vector<int> nodes;        ///< ascending
+  std::vector<double> values;    ///< of each node's positions, x and y, one node after the other
+};
+
+/// The numeric factor. Panels are kept in single precision (they precondition; the residual is judged in double), sums
+/// are made in double. Vectors hold x and y of each particle, in elimination order.
+class Factor {
+ public:
+  Factor(const Dissection& dissection, int threads);
+
+  /// Factorises `matrix`; returns the number of pivots raised by the rule.
+  int factorise(const BlockMatrix& matrix, PivotRule rule = {});
+
+  /// y = L^-1 y for the nodes in `active` (a flag a node, closed towards the root); y is zero elsewhere and stays so.
+  void forward(std::span<double> y, std::span<const std::uint8_t> active);
+  /// x = L^-T x, everywhere.
+  void backward(std::span<double> x);
+  /// L^-1 b for a load on a few particles ({position, {x, y}}).
+  [[nodiscard]] PathVector forward_path(std::span<const std::pair<int, std::array<double, 2>>> load);
+
+  [[nodiscard]] const Dissection& dissection() const { return *dissection_; }
+  [[nodiscard]] std::size_t entries() const { return panels_.size(); }
+
+ private:
+  void eliminate(int node, const BlockMatrix& matrix, PivotRule rule, std::vector<std::vector<double>>& updates,
+                 std::vector<int>& raised);
+  void forward_node(int node, double* y, const std::uint8_t* active, std::vector<double>& t);
+  void backward_node(int node, double* x, std::vector<double>& t);
+  void visit_up(int node, double* y, const std::uint8_t* active);
+  void visit_down(int node, double* x);
+
+  const Dissection* dissection_;
+  int threads_;
+  std::vector<float> panels_;
+  std::vector<double> inverse_;   // 1 / L_jj
+  std::vector<double> updates_;   // what a node hands to its parent in a forward sweep
+};
+
+}  // namespace dem::sheet

@@ -1,0 +1,129 @@
+#include "engine/sheet/modified.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dem::sheet {
+namespace {
+
+// A removal that leaves less than this share of a spring's stiffness along it is weakened to leave this share.
+constexpr double least_share = 1e-4;
+
+double dot_paths(const PathVector& a, const PathVector& b, const Dissection& d) {
+  std::size_t i = 0, j = 0, at = 0, bt = 0;
+  double total = 0;
+  while (i < a.nodes.size() && j < b.nodes.size()) {
+    const auto length = [&](int node) { return 2 * static_cast<std::size_t>(d.nodes[static_cast<std::size_t>(node)].own()); };
+    if (a.nodes[i] == b.nodes[j]) {
+      const auto n = length(a.nodes[i]);
+      total += dot(a.values.data() + at, b.values.data() + bt, n);
+      at += n, bt += n, ++i, ++j;
+    } else if (a.nodes[i] < b.nodes[j]) {
+      at += length(a.nodes[i++]);
+    } else {
+      bt += length(b.nodes[j++]);
+    }
+  }
+  return total;
+}
+
+}  // namespace
+
+int ModifiedFactor::factorise(const BlockMatrix& matrix, PivotRule rule) {
+  paths_.clear();
+  lower_.clear();
+  pivots_.clear();
+  return factor_.factorise(matrix, rule);
+}
+
+double ModifiedFactor::change(double c, int i, int j, std::array<double, 2> n, std::span<const std::uint8_t> fixed) {
+  const Dissection& d = factor_.dissection();
+  std::vector<std::pair<int, std::array<double, 2>>> load;
+  double sign = 1;
+  for (const int p : {i, j}) {
+    const auto held = fixed[static_cast<std::size_t>(p)];
+    load.push_back({d.position[static_cast<std::size_t>(p)], {(held & 1) ? 0 : sign * n[0], (held & 2) ? 0 : sign * n[1]}});
+    sign = -1;
+  }
+  PathVector y = factor_.forward_path(load);
+  const auto m = paths_.size();
+  std::vector<double> row(m);
+  for (std::size_t k = 0; k < m; ++k) {
+    row[k] = dot_paths(paths_[k], y, d);
+    for (std::size_t p = 0; p < k; ++p) row[k] -= row[p] * lower_[k][p];
+  }
+  // row holds L D l; what is left of b^T K^-1 b after the changes so far is the compliance along b.
+  double compliance = dot(y.values.data(), y.values.data(), y.values.size());
+  for (std::size_t k = 0; k < m; ++k) {
+    const double l = row[k] / pivots_[k];
+    compliance -= row[k] * l;
+    row[k] = l;
+  }
+  // The pivot of a removal is -(1/|c| - compliance): it vanishes when nothing else holds the pair along b.
+  if (c < 0 && 1 + c * compliance < least_share) c = -(1 - least_share) / std::max(compliance, 1e-300);
+  paths_.push_back(std::move(y));
+  lower_.push_back(std::move(row));
+  pivots_.push_back(1 / c + compliance);
+  return c;
+}
+
+void ModifiedFactor::correct(std::vector<double>& y) const {
+  const Dissection& d = factor_.dissection();
+  const auto m = paths_.size();
+  std::vector<double> a(m);
+  const auto each = [&](const PathVector& path, auto&& visit) {
+    std::size_t at = 0;
+    for (const int node : path.nodes) {
+      const auto& own = d.nodes[static_cast<std::size_t>(node)];
+      const auto n = 2 * static_cast<std::size_t>(own.own());
+      visit(2 * static_cast<std::size_t>(own.begin), at, n);
+      at += n;
+    }
+  };
+  for (std::size_t k = 0; k < m; ++k) {
+    double total = 0;
+    each(paths_[k], [&](std::size_t to, std::size_t at, std::size_t n) {
+      total += dot(paths_[k].values.data() + at, y.data() + to, n);
+    });
+    for (std::size_t p = 0; p < k; ++p) total -= lower_[k][p] * a[p];
+    a[k] = total;
+  }
+  for (std::size_t k = 0; k < m; ++k) a[k] /= pivots_[k];
+  for (std::size_t k = m; k-- > 0;) {
+    for (std::size_t p = 0; p < k; ++p) a[p] -= lower_[k][p] * a[k];
+  }
+  for (std::size_t k = 0; k < m; ++k) {
+    each(paths_[k], [&](std::size_t to, std::size_t at, std::size_t n) {
+      const double* v = paths_[k].values.data() + at;
+      double* out = y.data() + to;
+      for (std::size_t q = 0; q < n; ++q) out[q] -= a[k] * v[q];
+    });
+  }
+}
+
+void ModifiedFactor::solve(std::span<const double> bx, std::span<const double> by, std::span<double> ux,
+                           std::span<double> uy) {
+  const Dissection& d = factor_.dissection();
+  const auto n = d.order.size();
+  work_.resize(2 * n);
+  active_.assign(d.nodes.size(), 0);
+  for (std::size_t p = 0; p < n; ++p) {
+    const auto i = static_cast<std::size_t>(d.order[p]);
+    work_[2 * p] = bx[i];
+    work_[2 * p + 1] = by[i];
+    if (bx[i] != 0 || by[i] != 0) active_[static_cast<std::size_t>(d.node_of[p])] = 1;
+  }
+  for (std::size_t k = 0; k < d.nodes.size(); ++k) {
+    if (active_[k] && d.nodes[k].parent >= 0) active_[static_cast<std::size_t>(d.nodes[k].parent)] = 1;
+  }
+  factor_.forward(work_, active_);
+  correct(work_);
+  factor_.backward(work_);
+  for (std::size_t p = 0; p < n; ++p) {
+    const auto i = static_cast<std::size_t>(d.order[p]);
+    ux[i] = work_[2 * p];
+    uy[i] = work_[2 * p + 1];
+  }
+}
+
+}  // namespace dem::sheet

@@ -1,0 +1,40 @@
+#pragma once
+// A factor followed through broken springs: (K0 + sum c b b^T)^-1 by the Sherman-Morrison-Woodbury formula on path
+// vectors. Each change costs one sparse forward sweep; K0 is factorised anew by the rule of the solver that owns it.
+#include <array>
+#include <vector>
+
+#include "engine/sheet/factor.h"
+
+namespace dem::sheet {
+
+class ModifiedFactor {
+ public:
+  ModifiedFactor(const Dissection& dissection, int threads) : factor_(dissection, threads) {}
+
+  /// Takes a new K0 and forgets all changes; returns the number of raised pivots.
+  int factorise(const BlockMatrix& matrix, PivotRule rule = {});
+
+  /// Adds c b b^T with b = (n at particle i, -n at particle j), entries along held directions left out.
+  /// A change that would leave K without stiffness along b is weakened to keep it positive definite.
+  /// Returns the coefficient that was applied.
+  double change(double c, int i, int j, std::array<double, 2> n, std::span<const std::uint8_t> fixed);
+
+  /// Solves K x = b. `bx`, `by` by particle (zero along held directions); adds x to `ux`, `uy` (overwritten).
+  void solve(std::span<const double> bx, std::span<const double> by, std::span<double> ux, std::span<double> uy);
+
+  [[nodiscard]] int changes() const { return static_cast<int>(paths_.size()); }
+  [[nodiscard]] Factor& factor() { return factor_; }
+
+ private:
+  void correct(std::vector<double>& y) const;
+
+  Factor factor_;
+  std::vector<PathVector> paths_;              // Y = L^-1 B
+  std::vector<std::vector<double>> lower_;     // rows of the unit lower factor of S = C^-1 + Y^T Y = L D L^T
+  std::vector<double> pivots_;                 // D
+  std::vector<double> work_;
+  std::vector<std::uint8_t> active_;
+};
+
+}  // namespace dem::sheet

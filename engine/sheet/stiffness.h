@@ -1,0 +1,26 @@
+#pragma once
+// The tangent stiffness of a sheet: k n n^T + (f/d)(1 - n n^T) of every active spring or contact, as blocks.
+#include <vector>
+
+#include "engine/sheet/sheet.h"
+
+namespace dem::sheet {
+
+/// True when the slot carries force: a whole spring, or a broken pair pressed together.
+inline bool active(const Sheet& sheet, const Forces& forces, int slot) {
+  const auto k = static_cast<std::size_t>(slot);
+  return sheet.stiffness[k] > 0 && (sheet.joined[k] || forces.tension[k] < 0);
+}
+
+/// The block of one slot (positive: its share of the diagonal).
+Block tangent_block(const Sheet& sheet, const Forces& forces, int slot);
+
+/// Assembles the whole matrix. Particles left on two springs or fewer get a tether of a thousandth of their stiffest
+/// spring, so that the matrix can be factorised; the tether is no force, it only shortens steps along mechanisms.
+BlockMatrix assemble(const Sheet& sheet, const Forces& forces);
+
+/// out = K v with the tangent of the present state (no tethers), zero along held directions.
+void apply_tangent(const Sheet& sheet, const Forces& forces, std::span<const double> vx, std::span<const double> vy,
+                   std::span<double> out_x, std::span<double> out_y, int threads);
+
+}  // namespace dem::sheet
