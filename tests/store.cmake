@@ -1,0 +1,1 @@
+dem_test(test_store SOURCES unit/test_store.cpp LIBRARIES dem_store)
