@@ -1,6 +1,8 @@
 #pragma once
 // Charts: curves, bars, bands and marks on one or two value axes, with insets. Plain data in; PNG and vector SVG out
-// (render/draw.h). Values are in the units that the axis titles name: the caller converts.
+// (render/draw.h). Values are in the units that the axis titles name: the caller converts. Text is UTF-8 and
+// understands
+// _{...} and ^{...} for indices and exponents: "σ_{ci} (MPa)". NaN breaks a curve and leaves a bar out.
 #include <array>
 #include <optional>
 #include <string>

@@ -23,7 +23,8 @@ class Canvas {
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  /// Draws a chart as PNG (2x) and as SVG with text as paths. Files are written aside, then renamed.
+  /// Draws a chart as PNG (2x) and as SVG (text is text, in DejaVu Sans); an empty path leaves that file out.
+  /// Files are written aside, then renamed. Throws std::invalid_argument when columns of the chart differ in length.
   void draw(const Chart& chart, const std::filesystem::path& png, const std::filesystem::path& svg,
             const Provenance& facts);
   SceneResult draw(const Scene& scene, const std::filesystem::path& png, const Provenance& facts);
