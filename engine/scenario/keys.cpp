@@ -49,7 +49,6 @@ std::span<const Key> common_keys() {
        .type = KeyType::text,
        .standard = "\"\"",
        .help = "what the study shows, a paragraph at the head of the report"},
-      {.path = "source", .type = KeyType::text, .standard = "\"\"", .help = "the publication that is reproduced"},
       {.path = "seed",
        .type = KeyType::integer,
        .low = 0,
@@ -60,10 +59,6 @@ std::span<const Key> common_keys() {
        .type = KeyType::texts,
        .standard = "[]",
        .help = "ids of the figures to draw (see --list-figures); empty: those that belong to the scenario's name"},
-      {.path = "comparisons",
-       .type = KeyType::text,
-       .standard = "\"\"",
-       .help = "name of the table of published numbers in assets; empty: the one of the scenario's name"},
   };
   return keys;
 }

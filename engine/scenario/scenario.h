@@ -91,7 +91,7 @@ class Scenario {
   [[nodiscard]] const Entry& entry(std::string_view path) const;
 };
 
-/// The keys that every scenario has: model, title, seed, figures, comparisons file, ...
+/// The keys that every scenario has: model, title, description, seed, figures.
 std::span<const Key> common_keys();
 
 /// "17 %" -> 0.17, "58 GPa" -> 5.8e10; throws InputError (no location) on a bad number, unknown unit or another dimension.

@@ -1,0 +1,14 @@
+// The table of models: a model is one entry here.
+#include "engine/study/model.h"
+#include "engine/study/study.h"
+
+namespace dem {
+
+std::span<const Model> models() {
+  static const std::vector<Model> table = {};
+  return table;
+}
+
+const Model& model(std::string_view name) { return find_model(models(), name); }
+
+}  // namespace dem

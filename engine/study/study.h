@@ -1,0 +1,81 @@
+#pragma once
+// The cases of a scenario, run into out/NAME.SCALE/cases/CASE/results.h5. A finished case is kept as long as its
+// content key is the same; a cut one goes on from its checkpoint; a failed one does not stop the others.
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/record.h"
+#include "engine/scenario/scenario.h"
+#include "engine/study/model.h"
+
+namespace dem {
+
+/// Throws InputError listing the known names.
+const Model& find_model(std::span<const Model> models, std::string_view name);
+
+/// A checked scenario with its cases, ready to run.
+struct Study {
+  Scenario scenario;
+  const Model* model = nullptr;
+  std::vector<CaseSpec> cases;  ///< ids are unique
+
+  /// "NAME.SCALE", the folder below the output folder.
+  [[nodiscard]] std::string folder() const;
+};
+
+/// Reads and checks everything that can be checked without simulating. Writes nothing. Throws InputError.
+Study read_study(const std::string& file, std::string_view scale, std::span<const std::string> overrides,
+                 std::span<const Model> models);
+
+struct StudyOptions {
+  std::filesystem::path output = "out";
+  int threads = 1;
+  std::string only_case;     ///< run only this one; the others are taken when their record is current
+  bool report_only = false;  ///< simulate nothing
+  bool force = false;        ///< simulate also what has a current record, from the start
+  double checkpoint_seconds = 120;
+  const std::atomic<bool>* stop = nullptr;
+};
+
+enum class CaseState {
+  kept,       ///< the record was there and current
+  simulated,  ///< in this run
+  failed,     ///< CaseError
+  missing,    ///< no current record, and nothing may be simulated (report_only)
+  left_out,   ///< no current record, and another case was asked for
+};
+
+struct CaseOutcome {
+  std::string id;
+  CaseState state = CaseState::missing;
+  std::optional<Record> record;
+  std::string error;   ///< for failed and missing: what the report shows in the place of its figures
+  double seconds = 0;  ///< wall time of the simulation
+};
+
+/// What the runner tells while it works; the program prints it.
+struct StudyListener {
+  /// A case begins (number from 1): "no record", "seed: 1 -> 2", "goes on from its checkpoint".
+  std::function<void(const std::string& id, int number, int total, const std::string& why)> begin =
+      [](const std::string&, int, int, const std::string&) {};
+  std::function<void(const Progress&)> progress = [](const Progress&) {};
+  /// It is done, whatever its state.
+  std::function<void(const CaseOutcome&)> end = [](const CaseOutcome&) {};
+  std::function<void(const std::string&)> note = [](const std::string&) {};
+};
+
+/// The outcomes in report order. Throws Interrupted when stopped (the case at hand has left its checkpoint), InputError
+/// for an unknown `only_case`, EnvironmentError when a file cannot be written.
+std::vector<CaseOutcome> run_study(const Study& study, const StudyOptions& options, const StudyListener& listener);
+
+/// Why a record of content `before` does not serve `now`: the lines that differ, quantities in their declared unit:
+/// "mineral[2].cohesion: 292 MPa -> 300 MPa, seed: 1 -> 2". "" when they are the same.
+std::string changes(std::string_view before, std::string_view now, std::span<const Key> keys);
+
+}  // namespace dem
