@@ -77,7 +77,8 @@ void draw_series(Sheet& sheet, const Panel& panel, const Series& series) {
       draw_error(sheet, panel, high.x, low.y, high.y, series.colour);
   }
   for (auto& piece : curve_of(panel, series)) sheet.line(std::move(piece), {series.colour, series.width, series.line});
-  for (const Vec2& p : markers_of(panel, series)) sheet.marker(series.marker, p, 0.52 * panel.text, series.colour);
+  const Marker marker = series.marker == Marker::none ? Marker::circle : series.marker;  // a lonely point
+  for (const Vec2& p : markers_of(panel, series)) sheet.marker(marker, p, 0.52 * panel.text, series.colour);
 }
 
 double luminance(const Colour& c) { return 0.299 * c.red + 0.587 * c.green + 0.114 * c.blue; }
@@ -117,6 +118,10 @@ void draw_bars(Sheet& sheet, const Panel& panel) {
     }
     if (bars.print_values) print_value(sheet, panel, bars, bar, beyond);
   }
+  const Scale& scale = panel.scale(bars.side);
+  const double zero = panel.down(0, bars.side);
+  if (!scale.logarithmic && scale.low < 0 && scale.high > 0)
+    sheet.line({{panel.plot.left, zero}, {panel.plot.right, zero}}, {ink, 0.9, Line::solid});
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ namespace {
 struct Ranges {
   Range x, left, right;
   bool has_right = false;
+  bool marked = false;  ///< points with markers: they should not sit on the frame
   Range& y(Side side) {
     if (side == Side::right) has_right = true;
     return side == Side::left ? left : right;
@@ -37,8 +38,8 @@ void take_bars(Ranges& ranges, const Chart& chart) {
       const double base = bars.stacked ? (value < 0 ? below : above) : 0;
       take(y, axis, base + value);
       if (std::isfinite(error)) {
-        take(y, axis, base + value + error);
-        take(y, axis, base + value - error);
+        take(y, axis, value < 0 ? std::min(base + value + error, 0.0) : base + value + error);
+        take(y, axis, value < 0 ? base + value - error : std::max(base + value - error, 0.0));
       }
       (value < 0 ? below : above) += value;
     }
@@ -49,6 +50,7 @@ Ranges ranges_of(const Chart& chart) {
   Ranges ranges;
   for (const Series& s : chart.series) {
     const Axis& axis = s.side == Side::left ? chart.left : chart.right;
+    ranges.marked = ranges.marked || s.marker != Marker::none;
     for (std::size_t i = 0; i < s.x.size(); ++i) {
       if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i])) continue;
       take(ranges.x, chart.x, s.x[i]);
@@ -91,9 +93,9 @@ double widest_label(const Scale& scale, double size) {
 }
 
 /// Fewer ticks until labels along x stand apart.
-Scale x_scale(const Axis& axis, const Range& data, double width, double size) {
+Scale x_scale(const Axis& axis, const Range& data, bool tight, double width, double size) {
   for (int wanted = std::clamp(static_cast<int>(width / 70), 2, 10);; --wanted) {
-    Scale scale = make_scale(axis, data, wanted, false);
+    Scale scale = make_scale(axis, data, wanted, tight);
     double right_end = -1e300;
     bool apart = true;
     for (const Tick& tick : scale.ticks) {
@@ -138,7 +140,14 @@ void make_scales(Panel& panel, const Ranges& ranges) {
     const double slot = panel.plot.width() / std::max<std::size_t>(1, chart.bars->categories.size());
     for (const auto& name : chart.bars->categories) panel.categories.push_back(wrapped(name, 0.94 * slot, panel.text));
   } else {
-    panel.x = x_scale(chart.x, ranges.x, panel.plot.width(), panel.text);
+    Range x = ranges.x;
+    const bool room = ranges.marked && x.any && !chart.x.logarithmic && x.high > x.low;
+    if (room) {
+      const double air = 0.04 * (x.high - x.low);
+      if (x.low != 0) x.low -= air;
+      x.high += air;
+    }
+    panel.x = x_scale(chart.x, x, room, panel.plot.width(), panel.text);
   }
   const int wanted = std::clamp(static_cast<int>(panel.plot.height() / (3.4 * panel.text)), 2, 8);
   panel.left = make_scale(chart.left, ranges.left, wanted, false);

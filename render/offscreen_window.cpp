@@ -1,8 +1,15 @@
 #include "render/offscreen_window.h"
 
+#include <vtkCameraPass.h>
 #include <vtkFloatArray.h>
+#include <vtkLightsPass.h>
+#include <vtkOpaquePass.h>
+#include <vtkRenderPassCollection.h>
 #include <vtkRenderer.h>
 #include <vtkRendererCollection.h>
+#include <vtkSequencePass.h>
+#include <vtkSmartPointer.h>
+#include <vtkTranslucentPass.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtk_glew.h>
 
@@ -34,8 +41,26 @@ std::string Offscreen::renderer() const {
   return name == nullptr ? "unknown" : reinterpret_cast<const char*>(name);
 }
 
+namespace {
+
+// VTK's own choice for see-through shapes weighs colours by depth; here they are blended in the order they are given.
+vtkSmartPointer<vtkRenderPass> passes() {
+  vtkNew<vtkRenderPassCollection> order;
+  order->AddItem(vtkNew<vtkLightsPass>());
+  order->AddItem(vtkNew<vtkOpaquePass>());
+  order->AddItem(vtkNew<vtkTranslucentPass>());
+  vtkNew<vtkSequencePass> sequence;
+  sequence->SetPasses(order);
+  vtkNew<vtkCameraPass> camera;
+  camera->SetDelegatePass(sequence);
+  return camera;
+}
+
+}  // namespace
+
 Image Offscreen::frame(vtkRenderer& scene, int width, int height, std::vector<float>* depth) {
   window_->SetSize(width, height);
+  scene.SetPass(passes());
   window_->AddRenderer(&scene);
   window_->Render();
   vtkNew<vtkUnsignedCharArray> pixels;

@@ -19,6 +19,14 @@ double round_step(double rough) {
   return 10 * power;
 }
 
+/// The largest of 1, 2, 5 times a power of ten that is not above `value`.
+double round_below(double value) {
+  const double power = std::pow(10, std::floor(std::log10(value) + 1e-12));
+  for (double factor : {5.0, 2.0})
+    if (factor * power <= value * (1 + 1e-9)) return factor * power;
+  return power;
+}
+
 int decimals(double step) {
   int digits = 0;
   for (double s = step; digits < 12 && std::abs(s - std::round(s)) > 1e-6 * std::max(1.0, s); s *= 10) ++digits;
@@ -57,7 +65,7 @@ void linear_ticks(Scale& scale, int wanted) {
   const int digits = decimals(step / unit);
   const double first = std::ceil(scale.low / step - 1e-6);
   for (double k = first; k * step <= scale.high + 1e-6 * step; ++k)
-    scale.ticks.push_back({k * step, plain_number(k * step / unit, digits), true});
+    scale.ticks.push_back({k * step, k == 0 ? "0" : plain_number(k * step / unit, digits), true});
   const double leading = step / std::pow(10, std::floor(std::log10(step) + 1e-9));
   const int parts = std::lround(leading) == 2 ? 4 : 5;
   const double minor = step / parts;
@@ -73,8 +81,8 @@ void log_range(Scale& scale, const Axis& axis, const Range& data, bool tight) {
     high = std::max(high, low) * (axis.high ? 1.0000001 : 3);
   }
   if (!tight) {
-    if (!axis.low) low = std::pow(10, std::floor(std::log10(low) + 1e-9));
-    if (!axis.high) high = std::pow(10, std::ceil(std::log10(high) - 1e-9));
+    if (!axis.low) low = round_below(low);
+    if (!axis.high) high = round_step(high);
   }
   scale.low = low;
   scale.high = high;
