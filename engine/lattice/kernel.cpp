@@ -1,0 +1,346 @@
+// Compiled several times with different -m flags: see CMakeLists.txt. DEM_KERNEL names the result, DEM_LANES the width.
+// Every operation is element-wise and none is fused, so that all widths give the same bits.
+#include "engine/lattice/kernel.h"
+
+#include <immintrin.h>
+
+namespace dem::lattice {
+namespace {
+
+constexpr int lanes = DEM_LANES;
+using V = double __attribute__((vector_size(8 * DEM_LANES)));
+using Unaligned = double __attribute__((vector_size(8 * DEM_LANES), aligned(8), may_alias));
+using Mask = long long __attribute__((vector_size(8 * DEM_LANES)));
+
+inline V load(const double* p) { return *reinterpret_cast<const Unaligned*>(p); }
+inline void store(double* p, V v) { *reinterpret_cast<Unaligned*>(p) = v; }
+inline V fill(double x) { return x - V{}; }
+
+#if DEM_LANES == 8
+inline V root(V x) { return _mm512_sqrt_pd(x); }
+inline bool any(Mask m) {
+  return _mm512_test_epi64_mask(reinterpret_cast<__m512i>(m), reinterpret_cast<__m512i>(m)) != 0;
+}
+constexpr Mask lane_bits = {1, 2, 4, 8, 16, 32, 64, 128};
+inline V shift_in(V before, V now) { return __builtin_shuffle(before, now, Mask{7, 8, 9, 10, 11, 12, 13, 14}); }
+#elif DEM_LANES == 4
+inline V root(V x) { return _mm256_sqrt_pd(x); }
+inline bool any(Mask m) { return _mm256_movemask_pd(reinterpret_cast<__m256d>(m)) != 0; }
+constexpr Mask lane_bits = {1, 2, 4, 8};
+inline V shift_in(V before, V now) { return __builtin_shuffle(before, now, Mask{3, 4, 5, 6}); }
+#else
+inline V root(V x) { return _mm_sqrt_pd(x); }
+inline bool any(Mask m) { return _mm_movemask_pd(reinterpret_cast<__m128d>(m)) != 0; }
+constexpr Mask lane_bits = {1, 2};
+inline V shift_in(V before, V now) { return __builtin_shuffle(before, now, Mask{1, 2}); }
+#endif
+
+constexpr unsigned full = (1u << DEM_LANES) - 1;
+
+inline Mask mask_of(unsigned bits) { return ((static_cast<long long>(bits) - Mask{}) & lane_bits) != 0; }
+inline V where(Mask m, V v) { return reinterpret_cast<V>(m & reinterpret_cast<Mask>(v)); }
+inline V select(Mask m, V a, V b) { return m ? a : b; }
+
+// Reference vectors have zeros: no z in the layer, no x along y, no y in direction 5.
+constexpr bool has_x(int k) { return k != 0; }
+constexpr bool has_y(int k) { return k != 5; }
+constexpr bool has_z(int k) { return k >= 3; }
+
+struct Motion {
+  V ux, uy, uz, wx, wy, wz;
+};
+
+inline Motion motion(const double* p, int pitch) {
+  return {load(p), load(p + pitch), load(p + 2 * pitch), load(p + 3 * pitch), load(p + 4 * pitch), load(p + 5 * pitch)};
+}
+
+struct Accumulated {
+  V fx, fy, fz;  // on this element
+  V energy_normal, energy_shear, friction;
+  Mask trip;  // bonds past a limit, over all directions
+};
+
+// Forces of the bonds in direction K of one vector of elements, added to `sum`; the force itself goes to (fx, fy, fz).
+template <int K, bool Sample>
+inline void bond(const Constants& c, const Row& row, int at, const Motion& me, Accumulated& sum, V& fx, V& fy, V& fz) {
+  const int pitch = c.pitch;
+  const unsigned intact = row.intact[K * row.chunks + at / lanes];
+  const unsigned broken = row.broken[K * row.chunks + at / lanes];
+  double* force = K > 0 ? row.force + 3 * (K - 1) * c.force_pitch + at : nullptr;
+  if ((intact | broken) == 0) {
+    fx = fy = fz = V{};
+    if constexpr (K > 0) {
+      store(force, V{});
+      store(force + c.force_pitch, V{});
+      store(force + 2 * c.force_pitch, V{});
+    }
+    return;
+  }
+  const Motion far = motion(row.other[K] + at, pitch);
+  const double* r0 = c.bond[row.layer_kind][K];
+  const V dx = far.ux - me.ux, dy = far.uy - me.uy, dz = far.uz - me.uz;
+  V along = V{};
+  if constexpr (has_x(K)) along = along + r0[0] * dx;
+  if constexpr (has_y(K)) along = along + r0[1] * dy;
+  if constexpr (has_z(K)) along = along + r0[2] * dz;
+  const V q = (along + along) + ((dx * dx + dy * dy) + dz * dz);
+  const V r = root(c.d2 + q);
+  const V s = r + c.d;
+  const V inverse = 1.0 / (r * s);
+  const V xn = q * r * inverse;
+  const V ir = s * inverse;
+  V ex = dx, ey = dy, ez = dz;
+  if constexpr (has_x(K)) ex = ex + r0[0];
+  if constexpr (has_y(K)) ey = ey + r0[1];
+  if constexpr (has_z(K)) ez = ez + r0[2];
+  ex = ex * ir;
+  ey = ey * ir;
+  ez = ez * ir;
+
+  double* shear = row.shear + 3 * directions * at + 3 * K * lanes;
+  const V px = load(shear), py = load(shear + lanes), pz = load(shear + 2 * lanes);
+  V tx = px + (far.wx - me.wx), ty = py + (far.wy - me.wy), tz = pz + (far.wz - me.wz);
+  const V te = (tx * ex + ty * ey) + tz * ez;
+  tx = tx - te * ex;
+  ty = ty - te * ey;
+  tz = tz - te * ez;
+  V x2 = (tx * tx + ty * ty) + tz * tz;
+
+  V fn = c.kn * xn;
+  const V room_signed = c.fs0 - c.mu * fn;
+  const V room = select(room_signed > 0.0, room_signed, V{});
+  const Mask past = (xn > c.xb) | ((c.ks2 * x2) > (room * room));
+  V xe = xn;
+  if (intact == full) {
+    sum.trip |= past;
+  } else {
+    sum.trip |= past & mask_of(intact);
+    if (broken != 0) {
+      const Mask gone = mask_of(broken);
+      const V touching = select(fn < 0.0, fn, V{});
+      const V limit = c.mu * touching;  // negative or zero
+      const V over = c.ks2 * x2;
+      const V cut = select(over > limit * limit, -limit / root(over), fill(1.0));
+      const V ratio = select(gone, cut, fill(1.0));
+      const V before = (px * tx + py * ty) + pz * tz;
+      sum.friction += where(gone, 0.5 * c.ks * (1.0 - ratio) * (before + ratio * x2));
+      tx = tx * ratio;
+      ty = ty * ratio;
+      tz = tz * ratio;
+      x2 = ratio * ratio * x2;
+      fn = select(gone, touching, fn);
+      xe = select(gone, select(xn < 0.0, xn, V{}), xn);
+    }
+    const Mask there = mask_of(intact | broken);
+    tx = where(there, tx);
+    ty = where(there, ty);
+    tz = where(there, tz);
+    fn = where(there, fn);
+    xe = where(there, xe);
+    x2 = where(there, x2);
+  }
+  store(shear, tx);
+  store(shear + lanes, ty);
+  store(shear + 2 * lanes, tz);
+  fx = fn * ex + c.ks * tx;
+  fy = fn * ey + c.ks * ty;
+  fz = fn * ez + c.ks * tz;
+  sum.fx += fx;
+  sum.fy += fy;
+  sum.fz += fz;
+  if constexpr (K > 0) {
+    store(force, fx);
+    store(force + c.force_pitch, fy);
+    store(force + 2 * c.force_pitch, fz);
+  }
+  if constexpr (Sample) {
+    sum.energy_normal += 0.5 * c.kn * xe * xe;
+    sum.energy_shear += 0.5 * c.ks * x2;
+  }
+}
+
+// What a vector of bonds hands to the slow path and takes back, lane by lane.
+struct Spilled {
+  double first[3][DEM_LANES];  // force in direction 0
+  double sum[3][DEM_LANES];
+  double energy_normal[DEM_LANES], energy_shear[DEM_LANES];
+};
+
+// Breaks the bonds past their limit in one lane and direction: the same operations as above, on single values.
+inline void break_bond(const Constants& c, const Row& row, int at, int lane, int k, Spilled& s, Events& events) {
+  const int pitch = c.pitch;
+  const int column = at + lane;
+  const double* me = row.self + column;
+  const double* far = row.other[k] + column;
+  const double* r0 = c.bond[row.layer_kind][k];
+  double* t = row.shear + 3 * directions * at + 3 * k * lanes + lane;
+  double du[3], dw[3], e[3];
+  for (int i = 0; i < 3; ++i) {
+    du[i] = far[i * pitch] - me[i * pitch];
+    dw[i] = far[(3 + i) * pitch] - me[(3 + i) * pitch];
+  }
+  double along = 0;
+  for (int i = 0; i < 3; ++i) along = along + r0[i] * du[i];
+  const double q = (along + along) + ((du[0] * du[0] + du[1] * du[1]) + du[2] * du[2]);
+  const double r = __builtin_sqrt(c.d2 + q);
+  const double sd = r + c.d;
+  const double inverse = 1.0 / (r * sd);
+  const double xn = q * r * inverse;
+  for (int i = 0; i < 3; ++i) e[i] = (r0[i] + du[i]) * (sd * inverse);
+  const double x2 = (t[0] * t[0] + t[lanes] * t[lanes]) + t[2 * lanes] * t[2 * lanes];
+  const double fn = c.kn * xn;
+  const double room_signed = c.fs0 - c.mu * fn;
+  const double room = room_signed > 0.0 ? room_signed : 0.0;
+  const bool opening = xn > c.xb;
+  if (!opening && !(c.ks2 * x2 > room * room)) return;
+
+  const double touching = fn < 0.0 ? fn : 0.0;
+  const double limit = c.mu * touching;
+  const double over = c.ks2 * x2;
+  const double ratio = over > limit * limit ? -limit / __builtin_sqrt(over) : 1.0;
+  double heat_normal = fn < 0.0 ? 0.0 : 0.5 * c.kn * xn * xn;
+  double heat_shear = 0.5 * c.ks * (x2 - ratio * ratio * x2);
+  s.energy_normal[lane] -= heat_normal;
+  s.energy_shear[lane] -= heat_shear;
+  for (int i = 0; i < 3; ++i) {
+    const double before = fn * e[i] + c.ks * t[i * lanes];
+    const double lost_normal = (fn - touching) * e[i];
+    const double lost_shear = c.ks * (t[i * lanes] - ratio * t[i * lanes]);
+    heat_normal -= 0.5 * lost_normal * dw[i];
+    heat_shear -= 0.5 * lost_shear * dw[i];
+    t[i * lanes] = ratio * t[i * lanes];
+    const double after = touching * e[i] + c.ks * t[i * lanes];
+    s.sum[i][lane] = (s.sum[i][lane] - before) + after;
+    if (k == 0) {
+      s.first[i][lane] = after;
+    } else {
+      row.force[(3 * (k - 1) + i) * c.force_pitch + column] = after;
+    }
+  }
+  const unsigned char bit = static_cast<unsigned char>(1u << lane);
+  const int chunk = k * row.chunks + at / lanes;
+  row.intact[chunk] = static_cast<unsigned char>(row.intact[chunk] & ~bit);
+  row.broken[chunk] = static_cast<unsigned char>(row.broken[chunk] | bit);
+  events.items[events.count++] = {events.step, row.index, column, k, opening ? 0 : 1, heat_normal, heat_shear};
+}
+
+__attribute__((noinline)) void break_bonds(const Constants& c, const Row& row, int at, Spilled& s, Events& events) {
+  for (int lane = 0; lane < lanes; ++lane) {
+    for (int k = 0; k < directions; ++k) {
+      if (row.intact[k * row.chunks + at / lanes] >> lane & 1) break_bond(c, row, at, lane, k, s, events);
+    }
+  }
+}
+
+template <bool Sample>
+void forces_of_row(const Constants& c, const Row& row, Events& events) {
+  const int pitch = c.pitch;
+  V left_x = V{}, left_y = V{}, left_z = V{};
+  for (int at = 0; at < pitch; at += lanes) {
+    const Motion me = motion(row.self + at, pitch);
+    Accumulated sum{};
+    V fx, fy, fz;
+    V first_x, first_y, first_z;
+    bond<0, Sample>(c, row, at, me, sum, first_x, first_y, first_z);
+    bond<1, Sample>(c, row, at, me, sum, fx, fy, fz);
+    bond<2, Sample>(c, row, at, me, sum, fx, fy, fz);
+    bond<3, Sample>(c, row, at, me, sum, fx, fy, fz);
+    bond<4, Sample>(c, row, at, me, sum, fx, fy, fz);
+    bond<5, Sample>(c, row, at, me, sum, fx, fy, fz);
+    if (any(sum.trip)) {
+      Spilled s;
+      store(s.first[0], first_x);
+      store(s.first[1], first_y);
+      store(s.first[2], first_z);
+      store(s.sum[0], sum.fx);
+      store(s.sum[1], sum.fy);
+      store(s.sum[2], sum.fz);
+      store(s.energy_normal, sum.energy_normal);
+      store(s.energy_shear, sum.energy_shear);
+      break_bonds(c, row, at, s, events);
+      first_x = load(s.first[0]);
+      first_y = load(s.first[1]);
+      first_z = load(s.first[2]);
+      sum.fx = load(s.sum[0]);
+      sum.fy = load(s.sum[1]);
+      sum.fz = load(s.sum[2]);
+      sum.energy_normal = load(s.energy_normal);
+      sum.energy_shear = load(s.energy_shear);
+    }
+    store(row.sum + at, sum.fx - shift_in(left_x, first_x));
+    store(row.sum + pitch + at, sum.fy - shift_in(left_y, first_y));
+    store(row.sum + 2 * pitch + at, sum.fz - shift_in(left_z, first_z));
+    left_x = first_x;
+    left_y = first_y;
+    left_z = first_z;
+    store(row.friction + at, load(row.friction + at) + sum.friction);
+    if constexpr (Sample) {
+      store(row.sample + at, sum.energy_normal);
+      store(row.sample + pitch + at, sum.energy_shear);
+    }
+  }
+}
+
+template <bool Sample>
+void advance_row(const Constants& c, const Row& row) {
+  const int pitch = c.pitch;
+  for (int at = 0; at < pitch; at += lanes) {
+    V f[3], w[3], wn[3];
+    for (int i = 0; i < 3; ++i) {
+      V sum = load(row.sum + i * pitch + at);
+      for (int k = 1; k < directions; ++k) sum = sum - load(row.source[k] + (3 * (k - 1) + i) * c.force_pitch + at);
+      f[i] = sum;
+      w[i] = load(row.self + (3 + i) * pitch + at);
+    }
+    if (row.weight) f[2] = f[2] - load(row.weight + at);
+    V held = V{};
+    if (row.plane_stiffness) {
+      V& fa = f[c.axis];
+      const V u = load(row.self + c.axis * pitch + at);
+      const V spring = load(row.plane_stiffness + at) * (load(row.plane_position + at) - u);
+      held = load(row.held + at);
+      store(row.plane_force + at, select(held > 0.0, fa, spring));
+      fa = fa + spring;
+    }
+    for (int i = 0; i < 3; ++i) wn[i] = c.keep * w[i] + c.push * f[i];
+    V free[3] = {w[0], w[1], w[2]};
+    if (row.plane_stiffness) {  // prescribed motion is made, and accounted for, by the plane
+      free[c.axis] = select(held > 0.0, V{}, w[c.axis]);
+      wn[c.axis] = select(held > 0.0, V{}, wn[c.axis]);
+    }
+    V viscous = V{}, kinetic = V{}, half = V{};
+    for (int i = 0; i < 3; ++i) {
+      const V both = free[i] + wn[i];
+      viscous = viscous + both * both;
+      if constexpr (Sample) {
+        kinetic = kinetic + free[i] * wn[i];
+        half = half + both * free[i];
+      }
+    }
+    store(row.viscous + at, load(row.viscous + at) + viscous);
+    if constexpr (Sample) {
+      store(row.sample + 2 * pitch + at, kinetic);
+      store(row.sample + 3 * pitch + at, half);
+    }
+    for (int i = 0; i < 3; ++i) {
+      store(row.self + i * pitch + at, load(row.self + i * pitch + at) + wn[i]);
+      store(row.self + (3 + i) * pitch + at, wn[i]);
+    }
+  }
+}
+
+void forces(const Constants& c, const Row& row, bool sample, Events& events) {
+  sample ? forces_of_row<true>(c, row, events) : forces_of_row<false>(c, row, events);
+}
+void advance(const Constants& c, const Row& row, bool sample) {
+  sample ? advance_row<true>(c, row) : advance_row<false>(c, row);
+}
+
+}  // namespace
+
+const Kernel& DEM_KERNEL() {
+  static constexpr Kernel kernel{DEM_KERNEL_NAME, DEM_LANES, forces, advance};
+  return kernel;
+}
+
+}  // namespace dem::lattice
