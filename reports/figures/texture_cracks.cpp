@@ -1,6 +1,8 @@
 // Crack maps and counts against the aspect ratio (Zhao et al. 2021, Fig. 15) and stages of cracking (Fig. 9).
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -108,7 +110,8 @@ FigureContent crack_counts(const StudyResult& study) {
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
-  render::Bars bars{.print_values = true};
+  render::Bars bars;
+  bars.print_values = true;
   std::vector<std::string> said;
   for (const CrackClass& one : crack_classes()) bars.categories.emplace_back(one.name);
   bars.categories.emplace_back("all");

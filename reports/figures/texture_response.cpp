@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -17,10 +18,6 @@ constexpr int half_width = 460;   // two beside each other on the page
 constexpr int half_height = 350;
 
 const render::Colour grey{0.35, 0.35, 0.35};
-
-render::Mark level(double value, const std::string& label) {
-  return {.kind = render::Mark::Kind::horizontal, .x = 0, .y = value, .label = label, .colour = grey, .line = render::Line::dot};
-}
 
 render::Mark moment(double strain_percent, const std::string& label) {
   return {.kind = render::Mark::Kind::vertical, .x = strain_percent, .y = 0, .label = label, .colour = grey, .line = render::Line::dot};
@@ -180,7 +177,9 @@ std::vector<Strength> strengths(const std::vector<SeriesCase>& compression, cons
 render::Chart strength_bars(const std::vector<Strength>& found, double Strength::*value, const std::string& title,
                             std::size_t colour, bool ratio) {
   render::Chart chart;
-  render::Bars bars{.print_values = true, .value_format = ratio ? "{:.0f}" : "{:.1f}"};
+  render::Bars bars;
+  bars.print_values = true;
+  bars.value_format = ratio ? "{:.0f}" : "{:.1f}";
   bars.labels = {title};
   bars.colours = {render::palette(colour)};
   bars.values.emplace_back();
@@ -239,7 +238,8 @@ double share(const dem::Record& record, const std::string& name) {
 
 render::Chart share_chart(const std::string& title, const std::vector<SeriesCase>& cases) {
   render::Chart chart;
-  render::Bars bars{.stacked = true};
+  render::Bars bars;
+  bars.stacked = true;
   for (const SeriesCase& item : cases) bars.categories.push_back(item.label);
   chart.bars = bars;
   chart.left.title = title;
