@@ -13,8 +13,11 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr int max_steps = 60'000;         // of one relaxation
 constexpr int max_adjustments = 60;       // of the radii
-constexpr double rough_unbalance = 1e-3;  // while the radii are still sought
-constexpr double largest_change = 0.01;   // of the radii at once
+constexpr double first_unbalance = 3e-2;  // of the cloud, before the radii are touched
+// Neighbour lists reach this far beyond touch, in mean radii.
+constexpr double coarse_skin = 0.4;
+constexpr double skin = 0.2;
+constexpr double largest_change = 0.01;  // of the radii at once
 // d(P/E) / d(ln radius) of an affine deformation, solid fraction 0.667 and 7 contacts a sphere: solid * Z / 4.
 constexpr double affine_slope = 1.17;
 
@@ -56,16 +59,15 @@ class Settling {
         pile_(vessel.diameter / unit_, vessel.height / unit_, in_order(cloud, origin_, 1 / unit_), context.threads) {}
 
   Settled run() {
-    relax(1e-2, 0.3);
-    progress_ = 0.2;
-    meet_pressure(rough_unbalance);
-    progress_ = 0.5;
-    meet_pressure(goal_.unbalance);
-    while (goal_.remove_floaters && remove_floaters()) {
-      progress_ = 0.8;
-      relax(goal_.unbalance, 0.1);
-      meet_pressure(goal_.unbalance);
+    // The radii are found on a pile roughly at rest, which costs little, and followed as it comes to rest.
+    relax(first_unbalance, coarse_skin);
+    for (const double unbalance : {1e-2, 1e-3}) {
+      if (unbalance > goal_.unbalance) meet_pressure(unbalance);
+      progress_ += 0.2;
     }
+    meet_pressure(goal_.unbalance);
+    progress_ = 0.9;
+    while (goal_.remove_floaters && remove_floaters()) meet_pressure(goal_.unbalance);
     const std::vector<std::size_t> order = space_filling_order(pile_.spheres());
     Settled settled{in_order(pile_.spheres(), order, unit_), {}, pile_.state(), scale_, removed_, pile_.steps()};
     for (const std::size_t i : order) settled.origin.push_back(origin_[i]);
@@ -75,8 +77,8 @@ class Settling {
   }
 
  private:
-  void relax(double unbalance, double skin) {
-    const bool at_rest = pile_.relax(unbalance, skin, max_steps, [this](const PileState&) {
+  void relax(double unbalance, double reach) {
+    const bool at_rest = pile_.relax(unbalance, reach, max_steps, [this](const PileState&) {
       if (context_.stop != nullptr && *context_.stop) throw Interrupted{};
       Progress now;
       now.stage = "packing";
@@ -93,7 +95,7 @@ class Settling {
 
   /// Secant search: the slope comes from the last two states, and from the affine estimate at first.
   void meet_pressure(double unbalance) {
-    relax(unbalance, 0.1);
+    relax(unbalance, skin);
     double slope = slope_;
     for (int n = 0; n < max_adjustments; ++n) {
       const double before = pile_.state().wall_pressure;
@@ -102,7 +104,7 @@ class Settling {
       const double change = std::clamp(missing / slope, -largest_change, largest_change);
       pile_.scale_radii(1 + change);
       scale_ *= 1 + change;
-      relax(unbalance, 0.1);
+      relax(unbalance, skin);
       const double measured = (pile_.state().wall_pressure - before) / change;
       slope = std::clamp(measured, 0.3 * affine_slope, 3 * affine_slope);
       slope_ = slope;

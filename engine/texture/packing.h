@@ -14,7 +14,7 @@ namespace dem::texture {
 struct SettleGoal {
   double pressure = 0.01;            ///< mean wall pressure over modulus
   double pressure_tolerance = 2e-3;  ///< relative
-  double unbalance = 1e-5;           ///< mean net force over mean contact force
+  double unbalance = 1e-4;           ///< mean net force over mean contact force
   bool remove_floaters = true;       ///< take out spheres with fewer than three contacts, walls counted
 };
 

@@ -75,7 +75,8 @@ GrainSeeds seed_grains(const Cylinder& vessel, const std::vector<MineralGrains>&
 /// Step 3: masking by ellipsoids, then growth along contacts, round by round, until every particle has a grain.
 GrainMap grow_grains(const Packing& packing, const GrainSeeds& seeds, const GrainShape& shape);
 
-/// pack() and seed_grains() kept by content in context.specimens (KEY.h5); made when missing.
+/// pack() and seed_grains(), each kept by content in context.specimens (KEY.h5, KEY the first 16 hexadecimal digits of the
+/// SHA-256 of its settings); made when the file is missing or damaged. With no folder nothing is kept.
 struct Genesis {
   Packing packing;
   GrainSeeds seeds;

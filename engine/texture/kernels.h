@@ -1,0 +1,51 @@
+#pragma once
+// The hot loops over bonds, built for several instruction sets from one source (kernels.inc) and chosen at run time.
+// All of them give the same bits: element-wise operations only, forces added in the order of the bonds.
+#include <cstdint>
+
+namespace dem::texture {
+
+inline constexpr int pack_width = 8;
+
+/// Eight intact flat joints, field by field. Dead lanes have zero stiffness and huge strengths.
+struct alignas(64) FlatJointPack {
+  enum Field { dx, dy, dz, share_one, length, normal, inverse_ratio, rho, opening, cohesion, tan_phi, fields };
+  double field[fields][pack_width];
+  std::int32_t first[pack_width], second[pack_width];
+};
+
+/// Eight grain-boundary contacts: parallel bond (bonded or broken) with its linear part and its slip.
+struct alignas(64) ParallelBondPack {
+  enum Field {
+    dx, dy, dz, share_one, length, linear_normal, linear_inverse_ratio, friction,
+    normal, inverse_ratio, radius, opening, cohesion, tan_phi, slip_x, slip_y, slip_z,
+    shear_x, shear_y, shear_z, fields
+  };
+  double field[fields][pack_width];
+  std::int32_t first[pack_width], second[pack_width];
+};
+
+/// Positions and rotations: rows of 8 doubles, x y z radius | w x y z. 64-byte aligned.
+/// Forces: rows of 8 doubles, Fx Fy Fz 0 | Mx My Mz 0.
+struct BondLoop {
+  const double* pose;
+  double* force;
+  std::int32_t* flagged;        ///< out: slots (8 * pack + lane) that may have broken
+  std::int32_t flagged_count;   ///< out
+  double heat;                  ///< out: friction heat of this pass, J
+};
+
+struct Kernels {
+  const char* name;  ///< "sse2", "avx2", "avx512"
+  void (*flat_joints)(const FlatJointPack*, std::int32_t packs, BondLoop&);
+  void (*parallel_bonds)(ParallelBondPack*, std::int32_t packs, BondLoop&);
+  double (*flat_joint_energy)(const FlatJointPack*, std::int32_t packs, const double* pose);
+  double (*parallel_bond_energy)(const ParallelBondPack*, std::int32_t packs, const double* pose);
+};
+
+/// The best set for this processor, or the one named in the environment variable DEM_SIMD (for tests and benchmarks).
+const Kernels& kernels();
+/// One of the sets by name; nullptr when unknown or not possible here.
+const Kernels* kernels(const char* name);
+
+}  // namespace dem::texture

@@ -1,0 +1,81 @@
+#include "engine/texture/setup.h"
+
+#include <algorithm>
+
+namespace dem::texture {
+
+std::vector<BondSpec> group_contacts(const Packing& packing, const GrainMap& grains, const Settings& settings) {
+  std::vector<BondSpec> bonds;
+  bonds.reserve(packing.contacts.size());
+  for (const auto& [i, j] : packing.contacts) {
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    const Mineral& one = settings.minerals[static_cast<std::size_t>(grains.mineral[a])];
+    const Mineral& two = settings.minerals[static_cast<std::size_t>(grains.mineral[b])];
+    BondSpec spec;
+    spec.first = i;
+    spec.second = j;
+    const bool same_mineral = grains.mineral[a] == grains.mineral[b];
+    spec.boundary = grains.grain[a] != grains.grain[b] && (!same_mineral || settings.same_mineral_boundaries);
+    spec.group = spec.boundary ? between(one, two, settings.interaction) : inside(one, settings.joint_modulus);
+    bonds.push_back(spec);
+  }
+  return bonds;
+}
+
+Specimen make_specimen(const Settings& settings, RunContext& context) {
+  std::vector<MineralGrains> minerals;
+  for (const Mineral& m : settings.minerals) minerals.push_back({m.share, m.diameter_min, m.diameter_max});
+  Genesis made = genesis(settings.packing, minerals, settings.seed_scale, context);
+  const std::vector<std::int32_t> order = order_in_slabs(made.packing.position, made.packing.radius);
+  Specimen specimen;
+  specimen.seeds = std::move(made.seeds);
+  specimen.packing = made.packing;
+  std::vector<std::int32_t> place(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const auto old = static_cast<std::size_t>(order[k]);
+    place[old] = static_cast<std::int32_t>(k);
+    specimen.packing.position[k] = made.packing.position[old];
+    specimen.packing.radius[k] = made.packing.radius[old];
+  }
+  for (auto& [i, j] : specimen.packing.contacts) {
+    i = place[static_cast<std::size_t>(i)];
+    j = place[static_cast<std::size_t>(j)];
+    if (i > j) std::swap(i, j);
+  }
+  std::sort(specimen.packing.contacts.begin(), specimen.packing.contacts.end());
+  specimen.grains = grow_grains(specimen.packing, specimen.seeds, settings.shape);
+  specimen.bonds = group_contacts(specimen.packing, specimen.grains, settings);
+  return specimen;
+}
+
+AssemblyInput assembly_input(const Specimen& specimen, const Settings& settings) {
+  AssemblyInput input;
+  input.position = specimen.packing.position;
+  input.radius = specimen.packing.radius;
+  input.mineral = specimen.grains.mineral;
+  for (const std::int32_t m : input.mineral) {
+    input.density.push_back(settings.minerals[static_cast<std::size_t>(m)].density);
+  }
+  input.bonds = specimen.bonds;
+  for (const Mineral& one : settings.minerals) {
+    input.fresh.emplace_back();
+    for (const Mineral& two : settings.minerals) input.fresh.back().push_back(between(one, two, settings.interaction));
+    input.wall_modulus.push_back(one.modulus);
+  }
+  input.damping = settings.damping;
+  input.time_step_factor = settings.time_step_factor;
+  const double height = settings.packing.vessel.height;
+  input.z_low = 0;
+  input.z_high = height;
+  if (settings.test == TestKind::compression) {
+    input.platens = true;
+  } else {
+    const double thickness = settings.grip * height;
+    for (const Vec3& p : input.position) {
+      input.grip.push_back(p[2] < thickness ? std::int8_t{1} : p[2] > height - thickness ? std::int8_t{2} : std::int8_t{0});
+    }
+  }
+  return input;
+}
+
+}  // namespace dem::texture

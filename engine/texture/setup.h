@@ -1,0 +1,55 @@
+#pragma once
+// From genesis to an assembly: the specimen in solver order, its contact groups, and the input of a test.
+#include <string>
+#include <vector>
+
+#include "engine/texture/assembly.h"
+#include "engine/texture/properties.h"
+#include "engine/texture/specimen.h"
+
+namespace dem::texture {
+
+enum class TestKind { compression, direct_tension };
+
+/// Everything that a case of this model depends on. SI units.
+struct Settings {
+  TestKind test = TestKind::compression;
+  PackingSettings packing;
+  std::vector<Mineral> minerals;
+  Interaction interaction;
+  GrainShape shape;
+  double seed_scale = 1;
+  JointModulus joint_modulus = JointModulus::sum;
+  bool same_mineral_boundaries = true;   ///< grains of one mineral meet in parallel bonds too
+  double damping = 0.7;
+  double time_step_factor = 0.8;
+  double compression_rate = 1e-7;        ///< strain a step
+  double tension_rate = 2e-8;
+  double ramp_strain = 2e-5;             ///< platens reach their speed over this strain
+  double compression_stop = 0.8;         ///< of the peak, after it
+  double tension_stop = 0.5;
+  double strain_limit = 3;               ///< times the strain of the peak
+  double grip = 0.05;                    ///< thickness of a grip over the height
+  double sample_strain = 1e-5;           ///< between samples, compression
+  double tension_sample_strain = 1e-6;
+  double gauge = 0.6;                    ///< length of the strain gauge over the height
+  double stiffness_departure = 0.02;     ///< of the axial stiffness at crack initiation
+};
+
+/// A specimen in the order of the solver.
+struct Specimen {
+  Packing packing;
+  GrainSeeds seeds;
+  GrainMap grains;
+  std::vector<BondSpec> bonds;   ///< one for each contact of the packing, in its order
+};
+
+/// Genesis, growth and contact groups (steps 1 to 4), reordered for the solver.
+Specimen make_specimen(const Settings& settings, RunContext& context);
+
+/// Step 4 alone: the law and the parameters of each contact.
+std::vector<BondSpec> group_contacts(const Packing& packing, const GrainMap& grains, const Settings& settings);
+
+AssemblyInput assembly_input(const Specimen& specimen, const Settings& settings);
+
+}  // namespace dem::texture

@@ -1,0 +1,2 @@
+add_executable(bench_texture bench/bench_texture.cpp)
+target_link_libraries(bench_texture PRIVATE dem_texture dem_warnings)
