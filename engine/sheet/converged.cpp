@@ -1,15 +1,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/sheet/patch.h"
 #include "engine/sheet/solver.h"
 #include "engine/sheet/stiffness.h"
 
 namespace dem::sheet {
 namespace {
 
-constexpr int usual_solves = 3;        // of a relaxation with a good factor
-constexpr int refactor_after = 60;     // solves beyond the usual ones that are worth a new factor
+constexpr int usual_solves = 2;        // of a relaxation with a good factor
+constexpr int refactor_after = 24;      // solves beyond the usual ones that are worth a new factor
 constexpr int most_changes = 300;      // rank beyond which corrections cost more than a new factor
+constexpr double peak_share = 0.02;    // of the largest unbalanced force: what patches are laid around
+constexpr std::size_t most_hot = 2000, most_patches = 6;
 constexpr double longest_step = 0.2;   // of a particle radius, in one step
 
 }  // namespace
@@ -25,13 +28,12 @@ struct ConvergedSolver::Impl {
   std::vector<std::uint8_t> held;
   std::vector<double> nx, ny;
   std::vector<int> watched;   // slots that are not joined
-  std::vector<double> bx, by, ux, uy;
-  std::vector<double> px, py, qx, qy, zx, zy;
+  Patches patches;
+  std::vector<double> u;      // load, then displacement, in elimination order
 
   Impl(const Sheet& sheet, ConvergedSettings s)
       : settings(s), dissection(sheet.lattice), factor(dissection, s.threads) {
-    const auto n = static_cast<std::size_t>(sheet.particles());
-    for (auto* v : {&bx, &by, &ux, &uy, &px, &py, &qx, &qy, &zx, &zy}) v->assign(n, 0.0);
+    u.assign(2 * static_cast<std::size_t>(sheet.particles()), 0.0);
   }
 
   void factorise(const Sheet& sheet, const Forces& forces) {
@@ -57,9 +59,8 @@ struct ConvergedSolver::Impl {
 
   void change(const Sheet& sheet, ConvergedState::Change c) {
     const auto k = static_cast<std::size_t>(c.slot);
-    nx[k] = c.nx;
-    ny[k] = c.ny;
     held[k] = c.active ? 1 : 0;
+    if (c.active) nx[k] = c.nx, ny[k] = c.ny;
     c.coefficient = factor.change(c.coefficient, sheet.first(c.slot), sheet.second(c.slot), {c.nx, c.ny}, sheet.fixed);
     kept.changes.push_back(c);
     ++done.changes;
@@ -81,106 +82,193 @@ struct ConvergedSolver::Impl {
     }
   }
 
-  // The unbalanced forces along free directions; what is far below `small` is left for later steps to keep loads few.
-  void load(const Sheet& sheet, const Forces& forces, double small) {
-    const auto n = bx.size();
-    for (std::size_t i = 0; i < n; ++i) {
-      const double fx = (sheet.fixed[i] & 1) ? 0.0 : forces.x[i], fy = (sheet.fixed[i] & 2) ? 0.0 : forces.y[i];
-      const bool counts = std::max(std::fabs(fx), std::fabs(fy)) > small;
-      bx[i] = counts ? fx : 0.0;
-      by[i] = counts ? fy : 0.0;
+  // What is unbalanced: how much, and the boxes that cover what is above a share of the peak and of the tolerance
+  // (none when that takes more than most_patches boxes).
+  struct Imbalance {
+    double largest_spring = 0, most = 0;
+    std::vector<PatchBox> boxes;
+  };
+  Imbalance look(const Sheet& sheet, const Forces& forces) const {
+    const int rows = sheet.lattice.rows;
+    const auto columns = static_cast<std::size_t>(sheet.lattice.columns);
+    const auto n = static_cast<std::size_t>(sheet.particles());
+    std::vector<Imbalance> row(static_cast<std::size_t>(rows));
+#pragma omp parallel for schedule(static) num_threads(settings.threads)
+    for (int r = 0; r < rows; ++r) {
+      double spring = 0;
+      for (std::size_t d = 0; d < 3; ++d) {
+        const double* t = forces.tension.data() + d * n + static_cast<std::size_t>(r) * columns;
+#pragma omp simd reduction(max : spring)
+        for (std::size_t c = 0; c < columns; ++c) spring = std::fabs(t[c]) > spring ? std::fabs(t[c]) : spring;
+      }
+      row[static_cast<std::size_t>(r)].largest_spring = spring;
     }
+    Imbalance all;
+    for (const auto& one : row) all.largest_spring = std::max(all.largest_spring, one.largest_spring);
+    const auto size = [&](std::size_t i) {
+      const double fx = (sheet.fixed[i] & 1) ? 0.0 : std::fabs(forces.x[i]);
+      const double fy = (sheet.fixed[i] & 2) ? 0.0 : std::fabs(forces.y[i]);
+      return std::max(fx, fy);
+    };
+#pragma omp parallel for schedule(static) num_threads(settings.threads)
+    for (int r = 0; r < rows; ++r) {
+      double most = 0;
+      for (std::size_t c = 0; c < columns; ++c) most = std::max(most, size(static_cast<std::size_t>(r) * columns + c));
+      row[static_cast<std::size_t>(r)].most = most;
+    }
+    for (const auto& one : row) all.most = std::max(all.most, one.most);
+    const double counts = std::max(0.8 * settings.tolerance * all.largest_spring, peak_share * all.most);
+    struct Hot {
+      int column, row;
+      double size;
+    };
+    std::vector<Hot> hot;
+    for (int r = 0; r < rows && hot.size() < most_hot; ++r) {
+      if (row[static_cast<std::size_t>(r)].most <= counts) continue;
+      for (int c = 0; c < sheet.lattice.columns; ++c) {
+        const double value = size(static_cast<std::size_t>(r) * columns + static_cast<std::size_t>(c));
+        if (value > counts) hot.push_back({c, r, value});
+      }
+    }
+    if (hot.size() >= most_hot) return all;
+    while (!hot.empty()) {
+      if (all.boxes.size() == most_patches) {
+        all.boxes.clear();
+        break;
+      }
+      const Hot worst = *std::max_element(hot.begin(), hot.end(), [](const Hot& a, const Hot& b) { return a.size < b.size; });
+      all.boxes.push_back(Patches::around(sheet.lattice, worst.column, worst.row));
+      std::erase_if(hot, [&](const Hot& h) { return Patches::covers(sheet.lattice, all.boxes.back(), h.column, h.row); });
+    }
+    return all;
   }
 
-  void precondition(std::span<const double> rx, std::span<const double> ry, std::span<double> x, std::span<double> y) {
-    factor.solve(rx, ry, x, y);
-    ++done.solves;
+  // Unbalanced forces along free directions, in elimination order; what is far below `small` is left for later steps,
+  // so that loads stay few.
+  void load(const Sheet& sheet, const Forces& forces, double small) {
+    const int n = sheet.particles();
+#pragma omp parallel for schedule(static) num_threads(settings.threads)
+    for (int at = 0; at < n; ++at) {
+      const auto p = static_cast<std::size_t>(at);
+      const auto i = static_cast<std::size_t>(dissection.order[p]);
+      const double fx = (sheet.fixed[i] & 1) ? 0.0 : forces.x[i], fy = (sheet.fixed[i] & 2) ? 0.0 : forces.y[i];
+      const bool counts = std::max(std::fabs(fx), std::fabs(fy)) > small;
+      u[2 * p] = counts ? fx : 0.0;
+      u[2 * p + 1] = counts ? fy : 0.0;
+    }
   }
 
   double work_of(const Sheet& sheet, const Forces& forces) const {  // F . u along free directions
     double total = 0;
-    for (std::size_t i = 0; i < ux.size(); ++i) {
-      if (!(sheet.fixed[i] & 1)) total += forces.x[i] * ux[i];
-      if (!(sheet.fixed[i] & 2)) total += forces.y[i] * uy[i];
+    for (std::size_t at = 0; at < dissection.order.size(); ++at) {
+      const auto i = static_cast<std::size_t>(dissection.order[at]);
+      if (!(sheet.fixed[i] & 1)) total += forces.x[i] * u[2 * at];
+      if (!(sheet.fixed[i] & 2)) total += forces.y[i] * u[2 * at + 1];
     }
     return total;
   }
 
   void move(Sheet& sheet, double share) const {
-    for (std::size_t i = 0; i < ux.size(); ++i) {
-      sheet.x[i] += share * ux[i];
-      sheet.y[i] += share * uy[i];
+    const int n = sheet.particles();
+#pragma omp parallel for schedule(static) num_threads(settings.threads)
+    for (int at = 0; at < n; ++at) {
+      const auto p = static_cast<std::size_t>(at);
+      const auto i = static_cast<std::size_t>(dissection.order[p]);
+      sheet.x[i] += share * u[2 * p];
+      sheet.y[i] += share * u[2 * p + 1];
     }
   }
 
-  double limit(const Sheet& sheet) const {  // share of the step that no particle exceeds longest_step with
-    double most = 0;
-    for (std::size_t i = 0; i < ux.size(); ++i) most = std::max(most, std::max(std::fabs(ux[i]), std::fabs(uy[i])));
+  double limit(const Sheet& sheet) const {  // share of the step with which no particle exceeds longest_step
+    const double most = largest(u);
     const double longest = longest_step * sheet.radius0;
     return most > longest ? longest / most : 1.0;
   }
 
-  // Conjugate gradients on the true tangent: u = K^-1 b to `share` of the first residual. Returns solves made.
+  static double largest(std::span<const double> v) {
+    double most = 0;
+    const double* p = v.data();
+#pragma omp simd reduction(max : most)
+    for (std::size_t i = 0; i < v.size(); ++i) most = std::fabs(p[i]) > most ? std::fabs(p[i]) : most;
+    return most;
+  }
+
+  // Conjugate gradients on the true tangent: u = K^-1 u to `share` of the first residual. Returns solves made.
   int newton_direction(const Sheet& sheet, const Forces& forces, double share, int most) {
-    std::vector<double> rx = bx, ry = by;
-    std::fill(ux.begin(), ux.end(), 0.0);
-    std::fill(uy.begin(), uy.end(), 0.0);
-    const auto product = [](std::span<const double> ax, std::span<const double> ay, std::span<const double> cx,
-                            std::span<const double> cy) {
-      return dot(ax.data(), cx.data(), ax.size()) + dot(ay.data(), cy.data(), ay.size());
-    };
-    const auto largest = [&] {
-      double m = 0;
-      for (std::size_t i = 0; i < rx.size(); ++i) m = std::max(m, std::max(std::fabs(rx[i]), std::fabs(ry[i])));
-      return m;
-    };
-    const double start = largest();
+    const auto n = u.size() / 2;
+    std::vector<double> r = u, p(2 * n), q(2 * n), z(2 * n), vx(n), vy(n), wx(n), wy(n);
+    std::fill(u.begin(), u.end(), 0.0);
+    const double start = largest(r);
     int solves = 0;
     double rz = 0;
     while (solves < most) {
-      precondition(rx, ry, zx, zy);
+      z = r;
+      factor.solve(z);
       ++solves;
-      const double next = product(rx, ry, zx, zy);
+      const double next = dot(r.data(), z.data(), r.size());
       const double beta = solves == 1 ? 0.0 : next / rz;
       rz = next;
-      for (std::size_t i = 0; i < px.size(); ++i) {
-        px[i] = zx[i] + beta * px[i];
-        py[i] = zy[i] + beta * py[i];
+      for (std::size_t k = 0; k < p.size(); ++k) p[k] = z[k] + beta * p[k];
+      for (std::size_t at = 0; at < n; ++at) {
+        const auto i = static_cast<std::size_t>(dissection.order[at]);
+        vx[i] = p[2 * at], vy[i] = p[2 * at + 1];
       }
-      apply_tangent(sheet, forces, px, py, qx, qy, settings.threads);
-      const double curvature = product(px, py, qx, qy);
+      apply_tangent(sheet, forces, vx, vy, wx, wy, settings.threads);
+      for (std::size_t at = 0; at < n; ++at) {
+        const auto i = static_cast<std::size_t>(dissection.order[at]);
+        q[2 * at] = wx[i], q[2 * at + 1] = wy[i];
+      }
+      const double curvature = dot(p.data(), q.data(), p.size());
       if (curvature <= 1e-6 * rz) {  // a direction without stiffness: keep what is known, or step along it
-        if (solves == 1) ux = px, uy = py;
+        if (solves == 1) u = p;
         break;
       }
       const double alpha = rz / curvature;
-      for (std::size_t i = 0; i < px.size(); ++i) {
-        ux[i] += alpha * px[i];
-        uy[i] += alpha * py[i];
-        rx[i] -= alpha * qx[i];
-        ry[i] -= alpha * qy[i];
+      for (std::size_t k = 0; k < p.size(); ++k) {
+        u[k] += alpha * p[k];
+        r[k] -= alpha * q[k];
       }
-      if (largest() <= share * start) break;
+      if (largest(r) <= share * start) break;
     }
+    done.solves += solves;
     return solves;
   }
 
-  // Moves along (ux, uy); shortens the step while the energy would rise along it.
+  // Moves along u; shortens the step while the energy would rise along it.
   void search(Sheet& sheet, Forces& forces) {
     const double before = forces.unbalanced;
-    const double slope = work_of(sheet, forces);
     double share = limit(sheet);
+    move(sheet, share);
+    const double slope_share = share;
+    compute_forces(sheet, forces, settings.threads);
+    if (forces.unbalanced < 0.9 * before) return;
+    // Rare: find where the forces along u vanish, from the start's slope (recomputed) on.
+    move(sheet, -slope_share);
+    compute_forces(sheet, forces, settings.threads);
+    const double slope = work_of(sheet, forces);
     double at = 0;
     for (int attempt = 0; attempt < 12; ++attempt) {
       move(sheet, share - at);
       at = share;
       compute_forces(sheet, forces, settings.threads);
-      if (forces.unbalanced < 0.9 * before) return;
       const double now = work_of(sheet, forces);
-      if (now >= -0.5 * std::fabs(slope)) return;
+      if (forces.unbalanced < 0.9 * before || now >= -0.5 * std::fabs(slope)) return;
       ++done.searches;
       share = std::clamp(share * slope / (slope - now), 0.1 * share, 0.7 * share);
     }
+  }
+
+  int global_step(Sheet& sheet, Forces& forces, bool conjugate) {
+    load(sheet, forces, 0.05 * settings.tolerance * forces.largest);
+    int solves = 1;
+    if (conjugate) {
+      solves = newton_direction(sheet, forces, 0.02, 20);
+    } else {
+      factor.solve(u);
+      ++done.solves;
+    }
+    search(sheet, forces);
+    return solves;
   }
 
   Relaxation relax(Sheet& sheet, Forces& forces, std::span<const int> near) {
@@ -188,35 +276,43 @@ struct ConvergedSolver::Impl {
     compute_forces(sheet, forces, settings.threads);
     watched.insert(watched.end(), near.begin(), near.end());
     Relaxation result;
-    int slow = 0;
+    int slow = 0, patched = 0;
     bool fresh = false;
-    const auto balanced = [&] { return forces.unbalanced <= settings.tolerance * forces.largest; };
-    if (!factorised) factorise(sheet, forces), fresh = true;
+    // The load moved: every direction has turned a little. One factor a load step is little beside its breaks.
+    if (!factorised || near.empty()) factorise(sheet, forces), fresh = true;
+    Imbalance now = look(sheet, forces);
+    const auto balanced = [&] { return now.most <= settings.tolerance * now.largest_spring; };
     while (!balanced() && result.iterations < settings.most_solves) {
+      const double before = now.most;
+      // Patches come after global steps: what they push over their rim is for the next global step.
+      if (!settings.refactor_always && result.iterations > patched && !now.boxes.empty()) {
+        for (const PatchBox& box : now.boxes) {
+          patches.relax(sheet, forces, box, 0.1 * settings.tolerance * now.largest_spring);
+          ++done.patches;
+        }
+        patched = result.iterations;
+        now = look(sheet, forces);
+        forces.largest = now.largest_spring;
+        forces.unbalanced = now.most;
+        continue;
+      }
       if (settings.refactor_always || factor.changes() > most_changes || kept.extra_solves > refactor_after) {
         factorise(sheet, forces);
         fresh = true;
       } else {
         follow(sheet, forces);
       }
-      const double before = forces.unbalanced;
-      load(sheet, forces, 0.05 * settings.tolerance * forces.largest);
-      int solves = 1;
-      if (slow < 2) {
-        precondition(bx, by, ux, uy);
-      } else {
-        solves = newton_direction(sheet, forces, 0.02, 20);
-      }
-      search(sheet, forces);
+      const int solves = global_step(sheet, forces, slow >= 2);
+      now = look(sheet, forces);
       result.iterations += solves;
-      if (forces.unbalanced > 0.3 * before) ++slow;
+      if (now.most > 0.3 * before) ++slow;
       if (!fresh) kept.extra_solves += solves;
       // A relaxation that goes on and on needs a factor of its own.
       if (result.iterations % 40 < solves && result.iterations >= 40) kept.extra_solves = refactor_after + 1;
     }
     if (!fresh) kept.extra_solves = std::max<std::int64_t>(0, kept.extra_solves - std::min(usual_solves, result.iterations));
     result.reached = balanced();
-    result.unbalanced = forces.largest > 0 ? forces.unbalanced / forces.largest : 0;
+    result.unbalanced = now.largest_spring > 0 ? now.most / now.largest_spring : 0;
     return result;
   }
 };

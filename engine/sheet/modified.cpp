@@ -67,7 +67,7 @@ double ModifiedFactor::change(double c, int i, int j, std::array<double, 2> n, s
   return c;
 }
 
-void ModifiedFactor::correct(std::vector<double>& y) const {
+void ModifiedFactor::correct(std::span<double> y) const {
   const Dissection& d = factor_.dissection();
   const auto m = paths_.size();
   std::vector<double> a(m);
@@ -101,29 +101,18 @@ void ModifiedFactor::correct(std::vector<double>& y) const {
   }
 }
 
-void ModifiedFactor::solve(std::span<const double> bx, std::span<const double> by, std::span<double> ux,
-                           std::span<double> uy) {
+void ModifiedFactor::solve(std::span<double> b) {
   const Dissection& d = factor_.dissection();
-  const auto n = d.order.size();
-  work_.resize(2 * n);
   active_.assign(d.nodes.size(), 0);
-  for (std::size_t p = 0; p < n; ++p) {
-    const auto i = static_cast<std::size_t>(d.order[p]);
-    work_[2 * p] = bx[i];
-    work_[2 * p + 1] = by[i];
-    if (bx[i] != 0 || by[i] != 0) active_[static_cast<std::size_t>(d.node_of[p])] = 1;
-  }
   for (std::size_t k = 0; k < d.nodes.size(); ++k) {
-    if (active_[k] && d.nodes[k].parent >= 0) active_[static_cast<std::size_t>(d.nodes[k].parent)] = 1;
+    const auto& node = d.nodes[k];
+    const auto own = b.subspan(2 * static_cast<std::size_t>(node.begin), 2 * static_cast<std::size_t>(node.own()));
+    if (!active_[k]) active_[k] = std::any_of(own.begin(), own.end(), [](double v) { return v != 0; }) ? 1 : 0;
+    if (active_[k] && node.parent >= 0) active_[static_cast<std::size_t>(node.parent)] = 1;
   }
-  factor_.forward(work_, active_);
-  correct(work_);
-  factor_.backward(work_);
-  for (std::size_t p = 0; p < n; ++p) {
-    const auto i = static_cast<std::size_t>(d.order[p]);
-    ux[i] = work_[2 * p];
-    uy[i] = work_[2 * p + 1];
-  }
+  factor_.forward(b, active_);
+  if (!paths_.empty()) correct(b);
+  factor_.backward(b);
 }
 
 }  // namespace dem::sheet

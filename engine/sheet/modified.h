@@ -20,20 +20,19 @@ class ModifiedFactor {
   /// Returns the coefficient that was applied.
   double change(double c, int i, int j, std::array<double, 2> n, std::span<const std::uint8_t> fixed);
 
-  /// Solves K x = b. `bx`, `by` by particle (zero along held directions); adds x to `ux`, `uy` (overwritten).
-  void solve(std::span<const double> bx, std::span<const double> by, std::span<double> ux, std::span<double> uy);
+  /// Solves K x = b in place; x and y of each particle in elimination order, b zero along held directions.
+  void solve(std::span<double> b);
 
   [[nodiscard]] int changes() const { return static_cast<int>(paths_.size()); }
   [[nodiscard]] Factor& factor() { return factor_; }
 
  private:
-  void correct(std::vector<double>& y) const;
+  void correct(std::span<double> y) const;
 
   Factor factor_;
   std::vector<PathVector> paths_;              // Y = L^-1 B
   std::vector<std::vector<double>> lower_;     // rows of the unit lower factor of S = C^-1 + Y^T Y = L D L^T
   std::vector<double> pivots_;                 // D
-  std::vector<double> work_;
   std::vector<std::uint8_t> active_;
 };
 
