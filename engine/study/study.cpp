@@ -158,12 +158,15 @@ Study read_study(const std::string& file, std::string_view scale, std::span<cons
   return study;
 }
 
-std::vector<CaseOutcome> run_study(const Study& study, const StudyOptions& options, const StudyListener& listener) {
+void check_case(const Study& study, const std::string& id) {
   const std::vector<std::string> ids = case_ids(study);
-  if (!options.only_case.empty() && std::ranges::find(ids, options.only_case) == ids.end()) {
-    throw InputError(Location{study.scenario.file(), 0, 0}, "--case", "there is no case '" + options.only_case + "'",
-                     advice(options.only_case, ids, "the cases are"));
-  }
+  if (id.empty() || std::ranges::find(ids, id) != ids.end()) return;
+  throw InputError(Location{study.scenario.file(), 0, 0}, "--case", "there is no case '" + id + "'",
+                   advice(id, ids, "the cases are"));
+}
+
+std::vector<CaseOutcome> run_study(const Study& study, const StudyOptions& options, const StudyListener& listener) {
+  check_case(study, options.only_case);
   return Runner(study, options, listener).run();
 }
 

@@ -33,6 +33,9 @@ struct Study {
 Study read_study(const std::string& file, std::string_view scale, std::span<const std::string> overrides,
                  std::span<const Model> models);
 
+/// Throws InputError listing the cases when `id` is none of them; "" stands for all.
+void check_case(const Study& study, const std::string& id);
+
 struct StudyOptions {
   std::filesystem::path output = "out";
   int threads = 1;
@@ -71,7 +74,7 @@ struct StudyListener {
 };
 
 /// The outcomes in report order. Throws Interrupted when stopped (the case at hand has left its checkpoint), InputError
-/// for an unknown `only_case`, EnvironmentError when a file cannot be written.
+/// as check_case(), EnvironmentError when a file cannot be written.
 std::vector<CaseOutcome> run_study(const Study& study, const StudyOptions& options, const StudyListener& listener);
 
 /// Why a record of content `before` does not serve `now`: the lines that differ, quantities in their declared unit:
