@@ -1,0 +1,79 @@
+# Shared by ./dem-report and tests/run: Debian packages and the build folder. Sourced, with $root set.
+
+# What a bare Debian 12 needs to build and to run.
+packages="g++ cmake ninja-build pkg-config libvtk9-dev libopenmpi-dev libosmesa6-dev libglew-dev libpng-dev libhdf5-dev
+libtomlplusplus-dev libcxxopts-dev libfmt-dev nlohmann-json3-dev libkainjow-mustache-dev
+doctest-dev weasyprint fonts-dejavu-core poppler-utils"
+build="$root/build"
+jobs=$(nproc 2>/dev/null || echo 2)
+
+say() { echo "$(basename -- "$0"): $*" >&2; }
+
+# stop LOG MESSAGE: the end of the log, where the whole of it is, and exit code 3
+stop() {
+  [ ! -s "$1" ] || tail -n 40 "$1" >&2
+  say "$2 (the whole log: $1)"
+  exit 3
+}
+
+missing_packages() {
+  # shellcheck disable=SC2086 # the list is meant to be split
+  dpkg-query -W -f='${Package} ${Status}\n' $packages 2>/dev/null |
+    awk -v wanted="$packages" '
+      / install ok installed$/ { have[$1] = 1 }
+      END {
+        n = split(wanted, names)
+        for (i = 1; i <= n; i++) if (!(names[i] in have)) printf "%s ", names[i]
+      }'
+}
+
+install_packages() {
+  command -v dpkg-query >/dev/null 2>&1 || return 0 # not Debian: CMake says what it does not find
+  missing=$(missing_packages)
+  [ -n "$missing" ] || return 0
+  as_root=
+  if [ "$(id -u)" -ne 0 ]; then
+    if command -v sudo >/dev/null 2>&1 && sudo -n true 2>/dev/null; then
+      as_root="sudo -n"
+    else
+      say "Debian packages are missing. Please run this line, then start again:"
+      echo "sudo apt-get update && sudo apt-get install -y --no-install-recommends $missing" >&2
+      exit 3
+    fi
+  fi
+  say "installing Debian packages (once): $missing"
+  log="$build/packages.log"
+  # shellcheck disable=SC2086 # no word when root, two with sudo
+  {
+    $as_root apt-get -q -o Acquire::Retries=3 update &&
+      $as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o Acquire::Retries=3 install \
+        --no-install-recommends $missing
+  } >"$log" 2>&1 </dev/null || stop "$log" "the packages could not be installed"
+}
+
+# configure OPTION...: makes or refreshes the build folder
+configure() {
+  log="$build/configure.log"
+  cmake -S "$root" -B "$build" -G Ninja "$@" >"$log" 2>&1 </dev/null || stop "$log" "CMake could not configure"
+}
+
+# build_targets LOG TARGET...
+build_targets() {
+  log="$1"
+  shift
+  cmake --build "$build" -j "$jobs" --target "$@" >"$log" 2>&1 </dev/null || stop "$log" "the build failed"
+}
+
+prepare_build_folder() {
+  # A copied or moved clone brings a build folder that belongs elsewhere.
+  if [ -f "$build/CMakeCache.txt" ] && ! grep -qx "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$build/CMakeCache.txt"; then
+    say "build/ belongs to another folder: made anew"
+    rm -rf "$build"
+  fi
+  mkdir -p "$build" || exit 3
+  # One at a time; the second waits for the first.
+  if command -v flock >/dev/null 2>&1; then
+    exec 9>"$build/.lock"
+    flock 9
+  fi
+}
