@@ -147,7 +147,8 @@ struct Solver::Impl {
 
   // With the load along z, the end layers belong to the first and the last thread, which can serve the planes at once.
   bool planes_are_local() const {
-    if (setup.axis != 2 || grid.shares.size() == 1) return true;
+    if (grid.shares.size() == 1) return true;
+    if (setup.axis != 2) return false;
     const int per = grid.rows_per_layer, last_layer = static_cast<int>(grid.rows.size()) - per;
     return grid.shares.front().last >= per && grid.shares.back().first <= last_layer;
   }
@@ -175,12 +176,10 @@ struct Solver::Impl {
     const auto n = static_cast<double>(plane.elements.size());
     double carried = 0;
     if (measure || setup.planes == PlaneKind::plate) carried = bond_force_sum(plane);
-    if (setup.planes == PlaneKind::elastic) {
-      plane.force = carried;
-    } else if (setup.planes == PlaneKind::rigid) {
-      plane.force = -carried;
-    } else {
+    if (setup.planes == PlaneKind::plate) {
       plane.force = n * setup.micro.kn * (plane.position - plane.plate);
+    } else if (measure) {
+      plane.force = setup.planes == PlaneKind::elastic ? carried : -carried;
     }
     if (measure) {
       plane.work += 0.5 * plane.force * plane.pending;  // second half of the last motion

@@ -1,0 +1,90 @@
+#pragma once
+// Strength tests and elastic series on a block (Liu et al. 2017, section 5): step-wise motion of the planes with time
+// steps between to damp waves. Samples are taken once a loading step, and at every time step while bonds break.
+#include <cstdint>
+#include <vector>
+
+#include "engine/lattice/solver.h"
+
+namespace dem::lattice {
+
+enum class TestKind { compression, tension };
+
+struct Loading {
+  TestKind kind = TestKind::tension;
+  double motion = 1.7e-10;    ///< of each moving plane in a loading step, m
+  bool both = true;           ///< both planes move; otherwise the high one
+  int settle = 100;           ///< time steps in a loading step
+  int burst = 1;              ///< bonds broken within 100 time steps from which on every time step is sampled
+  int after = 20000;          ///< time steps after failure
+  double largest_strain = 0;  ///< gives up there, positive; 0: none
+};
+
+/// A strength test in progress; may be saved and taken up again.
+class StrengthTest {
+ public:
+  StrengthTest(const Block& block, const Setup& setup, const Loading& loading);
+
+  /// One loading step. False when the test is over.
+  bool advance();
+
+  [[nodiscard]] const std::vector<Sample>& history() const { return history_; }
+  [[nodiscard]] const Solver& solver() const { return solver_; }
+  [[nodiscard]] bool failed() const { return failed_at_ >= 0; }
+  [[nodiscard]] std::int64_t failed_at() const {
+    return failed_at_;
+  }  ///< step at which stress had fallen to a tenth (tension), half (compression) of its peak
+  [[nodiscard]] const Sample& peak() const { return peak_; }  ///< sample of largest stress
+  [[nodiscard]] double stress(const Sample& sample) const;    ///< Pa, positive in the sense of the test
+  [[nodiscard]] double largest_residual() const {
+    return residual_;
+  }  ///< |imbalance| / max(W, W_peak / 1000) over all samples taken
+  [[nodiscard]] double largest_work() const { return work_; }
+  /// Step of the first sample with frictional heat above a millionth of the work; -1: none.
+  [[nodiscard]] std::int64_t friction_from() const { return friction_from_; }
+
+  struct State {
+    Solver::State solver;
+    std::vector<Sample> history;
+    Sample peak;
+    std::vector<double> numbers;
+    std::vector<std::int64_t> counts;
+  };
+  [[nodiscard]] State state() const;
+  void restore(const State& state);
+
+ private:
+  void take(const Sample& sample, bool keep);
+  [[nodiscard]] int stride() const;
+
+  Setup setup_;
+  Loading loading_;
+  Solver solver_;
+  double area_;
+  std::vector<Sample> history_;
+  Sample peak_;
+  double peak_stress_ = 0, last_stress_ = 0, residual_ = 0, work_ = 0, elastic_peak_ = 0;
+  std::int64_t loading_steps_ = 0, dense_ = 0, failed_at_ = -1, friction_from_ = -1;
+  bool over_ = false;
+};
+
+/// Area of the cross-section that stress refers to: the box of element centres; m^2.
+double cross_section(const Block& block, int axis);
+
+/// Secant moduli at one strain.
+struct ElasticPoint {
+  double strain = 0;           ///< axial, negative in compression
+  double young_modulus = 0;    ///< Pa
+  double poisson[2] = {0, 0};  ///< across the two other axes, in order
+};
+
+/// Compresses the block to about each of the strains (positive, rising) and lets it come to rest there: time steps at
+/// half the stable limit and twice the viscosity, until the kinetic energy is below 1e-18 of the elastic. Bonds do not
+/// break.
+std::vector<ElasticPoint> elastic_at_rest(const Block& block, Setup setup, const std::vector<double>& strains);
+
+/// The same by the paper's loading: `motion` of each plane (or the high one) and `settle` time steps.
+std::vector<ElasticPoint> elastic_by_steps(const Block& block, Setup setup, const Loading& loading,
+                                           const std::vector<double>& strains);
+
+}  // namespace dem::lattice
