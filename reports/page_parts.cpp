@@ -394,6 +394,8 @@ PageData comparisons_data(const Comparisons& comparisons) {
     item.set("statement", row.statement);
     item.set("has_statement", !row.statement.empty());
     item.set("published_value", amount_text(row.published, row.unit));
+    item.set("published_detail", row.published_detail);
+    item.set("has_published_detail", !row.published_detail.empty());
     item.set("computed_value", row.computed ? amount_text(*row.computed, row.unit) : "–");
     item.set("detail", row.detail);
     item.set("has_detail", !row.detail.empty());

@@ -112,6 +112,9 @@ Comparison described(const Json& entry) {
     row.tolerance = tolerance.at(row.relative ? "relative" : "absolute").get<double>();
   } else {
     row.published = row.kind == "trend" ? entry.at("published").get<std::string>() : "greater";
+    std::vector<std::string> values;
+    for (const Json& value : entry.value("published_values", Json::array())) values.push_back(number(value.get<double>(), 4));
+    row.published_detail = joined(values, " → ");
   }
   return row;
 }

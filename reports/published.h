@@ -34,6 +34,7 @@ struct Comparison {
   std::optional<double> tolerance;
   bool relative = false;             ///< deviation and tolerance are fractions of the published value
   Verdict verdict = Verdict::not_computed;
+  std::string published_detail;      ///< the published values that make a trend: "206.8 → 201.3 → 198.4"
   std::string detail;                ///< what trends are made of, or why nothing could be computed
 };
 
