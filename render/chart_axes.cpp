@@ -25,12 +25,14 @@ void draw_x_axis(Sheet& sheet, const Panel& panel, const Stroke& stroke) {
     sheet.line({{x, p.top}, {x, p.top + length}}, stroke);
     if (!tick.label.empty()) sheet.text(tick.label, {x, base}, style);
   }
+  TextStyle category = style;
+  category.size = panel.category_text;
   std::size_t lines = 1;
   for (std::size_t c = 0; c < panel.categories.size(); ++c) {
     lines = std::max(lines, panel.categories[c].size());
     for (std::size_t k = 0; k < panel.categories[c].size(); ++k)
       sheet.text(panel.categories[c][k],
-                 {panel.across(static_cast<double>(c)), base + 1.2 * panel.text * static_cast<double>(k)}, style);
+                 {panel.across(static_cast<double>(c)), base + 1.2 * panel.text * static_cast<double>(k)}, category);
   }
   const double below = base + 1.2 * panel.text * static_cast<double>(lines - 1) + 1.6 * panel.title_size();
   TextStyle title = style;
@@ -89,8 +91,14 @@ bool in_rows(const Panel& panel) { return panel.legend == Chart::Legend::below; 
 std::vector<Vec2> entry_places(const Panel& panel, const std::vector<LegendEntry>& entries, double max_width) {
   std::vector<Vec2> places;
   Vec2 at;
+  double all = 0, widest = 0;
   for (const LegendEntry& entry : entries) {
-    const double width = entry_width(panel, entry);
+    all += entry_width(panel, entry) + column_gap * panel.text;
+    widest = std::max(widest, entry_width(panel, entry));
+  }
+  const bool columns = all - column_gap * panel.text > max_width;  // more than one row: entries stand in columns
+  for (const LegendEntry& entry : entries) {
+    const double width = columns ? widest : entry_width(panel, entry);
     if (in_rows(panel) && at.x > 0 && at.x + width > max_width) at = {0, at.y + row_height * panel.text};
     places.push_back(at);
     if (in_rows(panel))

@@ -65,10 +65,11 @@ void draw_error(Sheet& sheet, const Panel& panel, double x, double low, double h
   const Stroke stroke{colour, 1, Line::solid};
   for (const auto& line : {std::vector<Vec2>{{x, low}, {x, high}}, std::vector<Vec2>{{x - cap, low}, {x + cap, low}},
                            std::vector<Vec2>{{x - cap, high}, {x + cap, high}}})
-    for (auto& piece : clip(line, panel.plot)) sheet.line(std::move(piece), stroke);
+    for (auto& piece : clip(line, {panel.plot.left - cap, panel.plot.top, panel.plot.right + cap, panel.plot.bottom}))
+      sheet.line(std::move(piece), stroke);
 }
 
-void draw_series(Sheet& sheet, const Panel& panel, const Series& series) {
+void draw_points(Sheet& sheet, const Panel& panel, const Series& series) {
   for (std::size_t i = 0; i < series.y_error.size(); ++i) {
     const Vec2 high = panel.at(series.x[i], series.y[i] + series.y_error[i], series.side);
     Vec2 low = panel.at(series.x[i], series.y[i] - series.y_error[i], series.side);
@@ -76,7 +77,6 @@ void draw_series(Sheet& sheet, const Panel& panel, const Series& series) {
     if (std::isfinite(high.y) && inside({panel.plot.left, -1e9, panel.plot.right, 1e9}, high))
       draw_error(sheet, panel, high.x, low.y, high.y, series.colour);
   }
-  for (auto& piece : curve_of(panel, series)) sheet.line(std::move(piece), {series.colour, series.width, series.line});
   const Marker marker = series.marker == Marker::none ? Marker::circle : series.marker;  // a lonely point
   for (const Vec2& p : markers_of(panel, series)) sheet.marker(marker, p, 0.52 * panel.text, series.colour);
 }
@@ -213,20 +213,13 @@ Occupancy data_occupancy(const Panel& panel, const Sheet& sheet) {
       if (std::isfinite(p.x) && std::isfinite(p.y)) taken.add({p.x - half, p.y - half, p.x + half, p.y + half}, 3);
     } else if (mark.kind == Mark::Kind::horizontal) {
       const double y = panel.down(mark.y, mark.side);
-      taken.add_line(clip({{panel.plot.left, y}, {panel.plot.right, y}}, panel.plot).empty()
-                         ? std::vector<Vec2>{}
-                         : std::vector<Vec2>{{panel.plot.left, y}, {panel.plot.right, y}},
-                     0.6);
+      for (const auto& piece : clip({{panel.plot.left, y}, {panel.plot.right, y}}, panel.plot))
+        taken.add_line(piece, 0.6);
     } else {
       const double x = panel.across(mark.x);
       for (const auto& piece : clip({{x, panel.plot.top}, {x, panel.plot.bottom}}, panel.plot))
         taken.add_line(piece, 0.6);
     }
-  }
-  for (const Inset& inset : panel.chart->insets) {
-    const Rect& p = panel.plot;
-    const double left = p.left + inset.place[0] * p.width(), bottom = p.bottom - inset.place[1] * p.height();
-    taken.add({left, bottom - inset.place[3] * p.height(), left + inset.place[2] * p.width(), bottom}, 3);
   }
   return taken;
 }
@@ -234,7 +227,13 @@ Occupancy data_occupancy(const Panel& panel, const Sheet& sheet) {
 void draw_data(Sheet& sheet, const Panel& panel) {
   for (const Band& band : panel.chart->bands) draw_band(sheet, panel, band);
   if (panel.chart->bars) draw_bars(sheet, panel);
-  for (const Series& series : panel.chart->series) draw_series(sheet, panel, series);
+  for (const Series& series : panel.chart->series)
+    for (auto& piece : curve_of(panel, series))
+      sheet.line(std::move(piece), {series.colour, series.width, series.line});
+}
+
+void draw_points(Sheet& sheet, const Panel& panel) {
+  for (const Series& series : panel.chart->series) draw_points(sheet, panel, series);
 }
 
 }  // namespace render

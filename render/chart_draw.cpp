@@ -1,5 +1,6 @@
 // A chart from its parts, in the order of painting.
 #include <array>
+#include <cmath>
 #include <stdexcept>
 
 #include "render/chart_panel.h"
@@ -38,14 +39,47 @@ bool in_a_corner(Chart::Legend legend) {
          legend == Chart::Legend::bottom_left || legend == Chart::Legend::bottom_right;
 }
 
+/// Insets stay where they were asked for when no data lies there; else they move to the nearest place that covers
+/// least.
+std::vector<Rect> inset_places(const Panel& panel, Occupancy& taken) {
+  std::vector<Rect> places;
+  const Rect& p = panel.plot;
+  for (const Inset& inset : panel.chart->insets) {
+    const double width = inset.place[2] * p.width(), height = inset.place[3] * p.height();
+    const auto at = [&](double left, double bottom) {
+      const double x = p.left + left * p.width(), y = p.bottom - bottom * p.height();
+      return Rect{x, y - height, x + width, y};
+    };
+    Rect best = at(inset.place[0], inset.place[1]);
+    double least = 100 * taken.taken(best);
+    constexpr int steps = 24;
+    constexpr double gap = 0.02;  // keeps off the ticks
+    const bool covers = least > 0;
+    for (int i = 0; covers && i < steps * steps; ++i) {
+      const double left = gap + (1 - inset.place[2] - 2 * gap) * (i % steps) / (steps - 1);
+      const double bottom = gap + (1 - inset.place[3] - 2 * gap) * static_cast<double>(i / steps) / (steps - 1);
+      const double cost =
+          100 * taken.taken(at(left, bottom)) + std::hypot(left - inset.place[0], bottom - inset.place[1]);
+      if (cost < least) {
+        best = at(left, bottom);
+        least = cost;
+      }
+    }
+    taken.add(best, 3);
+    places.push_back(best);
+  }
+  return places;
+}
+
 /// The layout with the legend where it was asked for, or in another corner, or below: where it covers no data.
 Panel with_free_legend(const Sheet& sheet, const Chart& chart, const Rect& area, double text) {
   Panel panel = lay_out(chart, area, text, chart.legend);
   if (!in_a_corner(panel.legend)) return panel;
-  const Occupancy taken = data_occupancy(panel, sheet);
   using enum Chart::Legend;
   for (Chart::Legend corner : {chart.legend, top_left, top_right, bottom_right, bottom_left}) {
     panel = lay_out(chart, area, text, corner);
+    Occupancy taken = data_occupancy(panel, sheet);
+    inset_places(panel, taken);  // takes their places
     if (panel.plot.holds(panel.legend_box) && taken.taken(panel.legend_box.grown(3)) == 0) return panel;
   }
   return lay_out(chart, area, text, below);
@@ -57,16 +91,15 @@ void draw_chart(Sheet& sheet, const Chart& chart, const Rect& area, double text)
   const Panel panel = with_free_legend(sheet, chart, area, text);
   draw_data(sheet, panel);
   Occupancy taken = data_occupancy(panel, sheet);
+  const std::vector<Rect> insets = inset_places(panel, taken);
   if (panel.legend != Chart::Legend::none) taken.add(panel.legend_box, 3);
   draw_marks(sheet, panel, taken);
   draw_axes(sheet, panel);
+  draw_points(sheet, panel);
   draw_legend(sheet, panel);
-  for (const Inset& inset : chart.insets) {
-    const Rect& p = panel.plot;
-    const double left = p.left + inset.place[0] * p.width(), bottom = p.bottom - inset.place[1] * p.height();
-    const Rect place{left, bottom - inset.place[3] * p.height(), left + inset.place[2] * p.width(), bottom};
-    sheet.rectangle(place, {1, 1, 1});
-    draw_chart(sheet, inset.chart[0], place, 0.86 * text);
+  for (std::size_t i = 0; i < insets.size(); ++i) {
+    sheet.rectangle(insets[i], {1, 1, 1});
+    draw_chart(sheet, chart.insets[i].chart[0], insets[i], 0.86 * text);
   }
 }
 

@@ -74,13 +74,14 @@ Ranges ranges_of(const Chart& chart) {
     if (m.kind != Mark::Kind::horizontal) take(ranges.x, chart.x, m.x);
     if (m.kind != Mark::Kind::vertical) take(ranges.y(m.side), m.side == Side::left ? chart.left : chart.right, m.y);
   }
-  // A little air over the highest value, more where values are printed over bars.
-  const double air = chart.bars && chart.bars->print_values && !chart.bars->stacked ? 0.09 : 0.02;
+  // A little air over the highest value, more where values are printed over bars, none over stacks (of 100 %).
+  double air = 0.02;
+  if (chart.bars) air = chart.bars->stacked ? 0 : chart.bars->print_values ? 0.09 : 0.02;
   for (auto [range, axis] : {std::pair{&ranges.left, &chart.left}, std::pair{&ranges.right, &chart.right}})
     if (range->any && !axis->logarithmic) {
-      const double room = air * (range->high - range->low);
-      if (range->high > 0) range->high += room;
-      if (range->low < 0) range->low -= room;
+      const double room = air * (range->high - range->low), low = range->low;
+      range->high = range->high <= 0 ? std::min(0.0, range->high + room) : range->high + room;
+      range->low = low >= 0 ? std::max(0.0, low - room) : low - room;
     }
   return ranges;
 }
@@ -94,7 +95,7 @@ double widest_label(const Scale& scale, double size) {
 
 /// Fewer ticks until labels along x stand apart.
 Scale x_scale(const Axis& axis, const Range& data, bool tight, double width, double size) {
-  for (int wanted = std::clamp(static_cast<int>(width / 70), 2, 10);; --wanted) {
+  for (int wanted = std::clamp(static_cast<int>(width / (4.6 * size)), 2, 10);; --wanted) {
     Scale scale = make_scale(axis, data, wanted, tight);
     double right_end = -1e300;
     bool apart = true;
@@ -138,20 +139,28 @@ void make_scales(Panel& panel, const Ranges& ranges) {
     panel.x.high = std::max(0.5, static_cast<double>(chart.bars->categories.size()) - 0.5);
     panel.categories.clear();
     const double slot = panel.plot.width() / std::max<std::size_t>(1, chart.bars->categories.size());
-    for (const auto& name : chart.bars->categories) panel.categories.push_back(wrapped(name, 0.94 * slot, panel.text));
+    double widest = 0;
+    for (const auto& name : chart.bars->categories) {
+      panel.categories.push_back(wrapped(name, 0.94 * slot, panel.text));
+      for (const auto& line : panel.categories.back()) widest = std::max(widest, text_width(line, panel.text));
+    }
+    panel.category_text = panel.text * std::clamp(0.96 * slot / std::max(widest, 1.0), 0.7, 1.0);
   } else {
     Range x = ranges.x;
-    const bool room = ranges.marked && x.any && !chart.x.logarithmic && x.high > x.low;
-    if (room) {
-      const double air = 0.04 * (x.high - x.low);
-      if (x.low != 0) x.low -= air;
-      x.high += air;
+    const double air = (ranges.marked ? 0.04 : 0.02) * (x.high - x.low);
+    panel.x = x_scale(chart.x, x, false, panel.plot.width(), panel.text);
+    // A round end of the axis is good; a third of a step of empty paper, or points on the frame, are not.
+    const bool loose = panel.x.high - panel.x.low > 1.1 * (x.high - x.low);
+    if (x.any && !chart.x.logarithmic && x.high > x.low && (ranges.marked || loose)) {
+      if (x.low > air || x.low < 0) x.low -= air;
+      if (x.high > 0 || x.high < -air) x.high += air;
+      panel.x = x_scale(chart.x, x, true, panel.plot.width(), panel.text);
     }
-    panel.x = x_scale(chart.x, x, room, panel.plot.width(), panel.text);
   }
   const int wanted = std::clamp(static_cast<int>(panel.plot.height() / (3.4 * panel.text)), 2, 8);
-  panel.left = make_scale(chart.left, ranges.left, wanted, false);
-  panel.right = make_scale(chart.right, ranges.right, wanted, false);
+  const auto ticks = [&](const Axis& axis) { return axis.logarithmic ? 2 * wanted : wanted; };  // powers are short
+  panel.left = make_scale(chart.left, ranges.left, ticks(chart.left), false);
+  panel.right = make_scale(chart.right, ranges.right, ticks(chart.right), false);
 }
 
 /// Room left, top, right and bottom of the plot for labels and titles (without legend).
@@ -203,7 +212,8 @@ void place_legend(Panel& panel, const Vec2& size) {
       panel.legend_box = {panel.area.right - size.x - 4, p.top, panel.area.right - 4, p.top + size.y};
       break;
     case Chart::Legend::below: {
-      const double left = std::max(panel.area.left + 4, p.middle().x - size.x / 2);
+      const double left =
+          std::max(panel.area.left + 4, std::min(p.middle().x - size.x / 2, panel.area.right - 4 - size.x));
       panel.legend_box = {left, panel.area.bottom - size.y - 4, left + size.x, panel.area.bottom - 4};
       break;
     }

@@ -34,6 +34,14 @@ Vec2 free_place(const Panel& panel, const Occupancy& taken, const Vec2& point, d
   return best;
 }
 
+/// Text on a veil where it cannot help covering something.
+void write_label(Sheet& sheet, const Panel& panel, const std::string& text, const Vec2& middle, Occupancy& taken) {
+  const Rect box = text_box(middle, text_width(text, panel.text), panel.text);
+  if (taken.taken({box.left + 1, box.top + 1, box.right - 1, box.bottom - 1}) > 0) sheet.rectangle(box, {1, 1, 1}, 0.8);
+  sheet.text(text, {middle.x, middle.y + cap_height * panel.text / 2}, {panel.text, Anchor::middle, ink, false, false});
+  taken.add(box, 3);
+}
+
 /// The point of a box nearest to p.
 Vec2 nearest(const Rect& box, const Vec2& p) {
   return {std::min(std::max(p.x, box.left), box.right), std::min(std::max(p.y, box.top), box.bottom)};
@@ -55,9 +63,7 @@ void draw_point(Sheet& sheet, const Panel& panel, const Mark& mark, Occupancy& t
     sheet.line({{at.x + start * (end.x - at.x), at.y + start * (end.y - at.y)}, end},
                {{0.35, 0.35, 0.35}, 0.7, Line::solid});
   }
-  sheet.text(mark.label, {middle.x, middle.y + cap_height * panel.text / 2},
-             {panel.text, Anchor::middle, ink, false, false});
-  taken.add(box, 3);
+  write_label(sheet, panel, mark.label, middle, taken);
   taken.add_line({at, end}, 2);
 }
 
@@ -86,28 +92,27 @@ void label_line(Sheet& sheet, const Panel& panel, const Mark& mark, const std::v
         best = middle;
       }
     }
-  sheet.text(mark.label, {best.x, best.y + half}, {panel.text, Anchor::middle, ink, false, false});
-  taken.add(text_box(best, width, panel.text), 3);
+  write_label(sheet, panel, mark.label, best, taken);
 }
 
-void draw_reference(Sheet& sheet, const Panel& panel, const Mark& mark, Occupancy& taken) {
+std::vector<std::vector<Vec2>> reference_line(const Panel& panel, const Mark& mark) {
   const Rect& p = panel.plot;
   const bool horizontal = mark.kind == Mark::Kind::horizontal;
   const double value = horizontal ? panel.down(mark.y, mark.side) : panel.across(mark.x);
-  if (!std::isfinite(value)) return;
-  const std::vector<Vec2> whole = horizontal ? std::vector<Vec2>{{p.left, value}, {p.right, value}}
-                                             : std::vector<Vec2>{{value, p.bottom}, {value, p.top}};
-  for (const auto& piece : clip(whole, p)) {
-    sheet.line(piece, {mark.colour, 1.1, mark.line});
-    if (!mark.label.empty()) label_line(sheet, panel, mark, piece, taken);
-  }
+  return clip(horizontal ? std::vector<Vec2>{{p.left, value}, {p.right, value}}
+                         : std::vector<Vec2>{{value, p.bottom}, {value, p.top}},
+              p);
 }
 
 }  // namespace
 
 void draw_marks(Sheet& sheet, const Panel& panel, Occupancy& taken) {
   for (const Mark& mark : panel.chart->marks)
-    if (mark.kind != Mark::Kind::point) draw_reference(sheet, panel, mark, taken);
+    if (mark.kind != Mark::Kind::point)
+      for (const auto& piece : reference_line(panel, mark)) sheet.line(piece, {mark.colour, 1.1, mark.line});
+  for (const Mark& mark : panel.chart->marks)
+    if (mark.kind != Mark::Kind::point && !mark.label.empty())
+      for (const auto& piece : reference_line(panel, mark)) label_line(sheet, panel, mark, piece, taken);
   for (const Mark& mark : panel.chart->marks)
     if (mark.kind == Mark::Kind::point) draw_point(sheet, panel, mark, taken);
 }

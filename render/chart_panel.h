@@ -26,8 +26,9 @@ struct LegendEntry {
 
 struct Panel {
   const Chart* chart = nullptr;
-  Rect area, plot;   ///< all that the chart may use; the frame of its data
-  double text = 12;  ///< size of tick labels (px)
+  Rect area, plot;            ///< all that the chart may use; the frame of its data
+  double text = 12;           ///< size of tick labels (px)
+  double category_text = 12;  ///< of names under bars
   Scale x, left, right;
   bool has_right = false;
   Chart::Legend legend = Chart::Legend::none;
@@ -65,7 +66,8 @@ std::vector<Vec2> markers_of(const Panel& panel, const Series& series);
 Occupancy data_occupancy(const Panel& panel, const Sheet& sheet);
 
 void draw_axes(Sheet& sheet, const Panel& panel);
-void draw_data(Sheet& sheet, const Panel& panel);
+void draw_data(Sheet& sheet, const Panel& panel);    ///< bands, bars and lines
+void draw_points(Sheet& sheet, const Panel& panel);  ///< markers and error bars: over the frame
 void draw_legend(Sheet& sheet, const Panel& panel);
 void draw_marks(Sheet& sheet, const Panel& panel, Occupancy& taken);
 

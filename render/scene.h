@@ -26,6 +26,7 @@ struct Discs {
   std::vector<Point> centre, normal;
   std::vector<double> radius;
   std::vector<Colour> colour;
+  bool over = false;  ///< drawn over everything and never cut: cracks near a section, on its face
 };
 
 struct Polyline {

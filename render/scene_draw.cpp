@@ -60,7 +60,9 @@ void cut_spheres(vtkActor& actor, const Scene& scene, const View& view) {
                                                           false);
 }
 
-double eye_distance(const View& view) { return view.eye > 0 ? view.eye : std::max(view.near_z, 0.0) + 100; }
+double eye_distance(const View& view) {
+  return view.eye > 0 ? view.eye : std::max(view.near_z, 0.0) + view.over_z + 100;
+}
 
 vtkSmartPointer<vtkActor> sphere_actor(const Spheres& spheres, const Scene& scene, const View& view) {
   vtkNew<vtkPoints> points;
@@ -138,7 +140,7 @@ Image render_pass(Offscreen& offscreen, const Scene& scene, const View& view, co
   camera.SetParallelProjection(view.eye > 0 ? 0 : 1);
   camera.SetParallelScale(scene.height / 2.0);
   camera.SetViewAngle(2 * std::atan2(scene.height / 2.0, eye) * 180 / 3.14159265358979323846);
-  camera.SetClippingRange(std::max(1.0, eye - view.near_z - 50), eye - view.far_z + 50);
+  camera.SetClippingRange(std::max(1.0, eye - view.near_z - view.over_z - 50), eye - view.far_z + 50);
   return offscreen.frame(*renderer, scene.width * smoothing, scene.height * smoothing);
 }
 

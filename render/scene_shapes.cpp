@@ -123,19 +123,30 @@ std::vector<Point> to_view(const View& view, const std::vector<Point>& points) {
 
 Colour shade(const Colour& c, double light) { return {c.red * light, c.green * light, c.blue * light}; }
 
+/// The same place on the screen, nearer to the eye than anything else.
+std::vector<Point> lifted(const View& view, std::vector<Point> points) {
+  for (Point& p : points) {
+    const double scale = view.magnification(p[2]) / view.magnification(p[2] + view.over_z);
+    p = {scale * p[0], scale * p[1], p[2] + view.over_z};
+  }
+  return points;
+}
+
 /// Cracks: lit from both sides, with a thin dark edge that also shows a disc seen from its side.
 void add_discs(Triangles& out, const Scene& scene, const View& view, const Discs& discs) {
   for (std::size_t i = 0; i < discs.centre.size(); ++i) {
     const Point normal = unit(discs.normal[i]);
     const double radius_px = discs.radius[i] * view.pixels_per_metre;
-    auto outline =
-        kept(ring(discs.centre[i], normal, discs.radius[i], corners_for(radius_px)), scene.cuts, scene.cuts.size());
-    if (outline.size() < 3) continue;
+    auto face = ring(discs.centre[i], normal, discs.radius[i], corners_for(radius_px));
+    if (!discs.over) face = kept(std::move(face), scene.cuts, scene.cuts.size());
+    if (face.size() < 3) continue;
+    face = to_view(view, face);
+    if (discs.over) face = lifted(view, std::move(face));
     const double facing = std::abs(dot(normal, view.back));
-    out.polygon(to_view(view, outline), shade(discs.colour[i], 0.78 + 0.22 * facing));
-    outline.push_back(outline.front());
+    out.polygon(face, shade(discs.colour[i], 0.78 + 0.22 * facing));
+    face.push_back(face.front());
     const double width = std::clamp(0.18 * radius_px, 0.6, 1.4);
-    ribbon(out, view, to_view(view, outline), Polyline{{}, shade(discs.colour[i], 0.45), width, Line::solid}, 0.4);
+    ribbon(out, view, face, Polyline{{}, shade(discs.colour[i], 0.45), width, Line::solid}, 0.4);
   }
 }
 
@@ -297,12 +308,15 @@ View fit_view(const Scene& scene) {
       if (!removed(scene.cuts, spheres.centre[i], spheres.radius[i]))
         all.take(along(spheres.centre[i]), spheres.radius[i]);
   for (const auto& discs : scene.discs)
-    for (std::size_t i = 0; i < discs.centre.size(); ++i) all.take(along(discs.centre[i]), discs.radius[i]);
+    for (std::size_t i = 0; i < discs.centre.size(); ++i)
+      if (discs.over || !removed(scene.cuts, discs.centre[i], discs.radius[i]))
+        all.take(along(discs.centre[i]), discs.radius[i]);
   for (const auto& line : scene.lines)
-    for (const Point& p : line.points) all.take(along(p), 0);
+    for (const auto& run : kept_runs(line.points, scene.cuts))
+      for (const Point& p : run) all.take(along(p), 0);
   if (scene.outline.shape != Outline::Shape::none)
     for (const Quad& quad : outline_quads(scene.outline))
-      for (const Point& p : quad) all.take(along(p), 0);
+      for (const Point& p : kept({quad.begin(), quad.end()}, scene.cuts, scene.cuts.size())) all.take(along(p), 0);
   if (scene.camera.frame)
     for (int code = 0; code < 8; ++code) {
       Point corner{};
@@ -326,12 +340,13 @@ View fit_view(const Scene& scene) {
   view.near_z = (all.high[2] - middle[2]) * view.pixels_per_metre;
   view.far_z = (all.low[2] - middle[2]) * view.pixels_per_metre;
   if (!scene.camera.parallel) {  // far enough to be calm, near enough to give depth; fitted at its near side
-    view.eye = 2.5 * std::max(scene.width, scene.height) + std::max(0.0, view.near_z);
+    view.eye = 2.5 * std::max(scene.width, scene.height) + 2 * (view.near_z - view.far_z) + std::max(0.0, view.near_z);
     const double shrunk = (view.eye - std::max(0.0, view.near_z)) / view.eye;
     view.pixels_per_metre *= shrunk;
     view.near_z *= shrunk;
     view.far_z *= shrunk;
   }
+  view.over_z = view.near_z - view.far_z + 10;
   return view;
 }
 

@@ -21,6 +21,7 @@ struct View {
   double pixels_per_metre = 1;
   double eye = 0;                ///< perspective: distance of the eye from the origin (px); 0: parallel
   double near_z = 0, far_z = 0;  ///< z of the nearest and farthest point of the scene (px)
+  double over_z = 0;             ///< added to z of what is drawn over everything
   [[nodiscard]] Point to_view(const Point& world) const;
   /// Pixels of the picture a unit of length at depth z covers.
   [[nodiscard]] double magnification(double z) const { return eye > 0 ? eye / (eye - z) : 1.0; }

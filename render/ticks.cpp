@@ -27,9 +27,10 @@ double round_below(double value) {
   return power;
 }
 
+/// Decimals that tell multiples of `step` apart.
 int decimals(double step) {
   int digits = 0;
-  for (double s = step; digits < 12 && std::abs(s - std::round(s)) > 1e-6 * std::max(1.0, s); s *= 10) ++digits;
+  for (double s = step; digits < 15 && (s < 0.5 || std::abs(s - std::round(s)) > 1e-6 * s); s *= 10) ++digits;
   return digits;
 }
 
@@ -89,8 +90,8 @@ void log_range(Scale& scale, const Axis& axis, const Range& data, bool tight) {
 }
 
 void log_ticks(Scale& scale, int wanted) {
-  const int first = static_cast<int>(std::floor(std::log10(scale.low) - 1e-9));
-  const int last = static_cast<int>(std::ceil(std::log10(scale.high) + 1e-9));
+  const int first = static_cast<int>(std::floor(std::log10(scale.low) + 1e-9));
+  const int last = static_cast<int>(std::ceil(std::log10(scale.high) - 1e-9));
   const bool few = std::log10(scale.high / scale.low) < 1.5;  // also 2 and 5 carry labels
   const int every = std::max(1, (last - first + wanted - 1) / wanted);
   const bool plain = first >= -3 && last <= 4 && every == 1;
