@@ -1,3 +1,4 @@
+# shellcheck shell=sh disable=SC2154
 # Shared by ./dem-report and tests/run: Debian packages and the build folder. Sourced, with $root set.
 
 # What a bare Debian 12 needs to build and to run.

@@ -1,0 +1,357 @@
+// The runner, with a model that counts instead of simulating.
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "engine/core/archive.h"
+#include "engine/core/errors.h"
+#include "engine/core/files.h"
+#include "engine/store/store.h"
+#include "engine/study/progress.h"
+#include "engine/study/study.h"
+#include "tests/support/scratch.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using dem::CaseState;
+
+std::span<const dem::Key> counter_keys() {
+  static const std::vector<dem::Key> keys = {
+      {.path = "load.stress", .unit = "MPa", .low = 0, .high = 1000, .standard = "\"100 MPa\"", .help = "of the test"},
+      {.path = "load.steps", .type = dem::KeyType::integer, .low = 1, .standard = "10", .help = "to count"},
+      {.path = "load.fails_at", .type = dem::KeyType::integer, .standard = "-1", .help = "value whose case fails"},
+      {.path = "load.value", .standard = "0", .help = "of a case"},
+      {.path = "sweep.value", .type = dem::KeyType::reals, .standard = "[1, 2, 3]", .help = "one case each"},
+  };
+  return keys;
+}
+
+template <int version>
+std::vector<dem::CaseSpec> counter_cases(const dem::Scenario& scenario) {
+  const std::vector<std::string> prefixes = {"load.", "seed"};
+  std::vector<dem::CaseSpec> cases;
+  for (const double value : scenario.reals("sweep.value")) {
+    const dem::Scenario one = scenario.with("load.value", value);
+    cases.push_back({"count_" + std::to_string(static_cast<int>(value)),
+                     one,
+                     one.canonical(prefixes) + "physics version = " + std::to_string(version) + "\n",
+                     {{"value", value}}});
+  }
+  return cases;
+}
+
+struct Counter {
+  std::int64_t step = 0;
+  double sum = 0;
+  template <class Archive>
+  void archive(Archive& a) {
+    a(step, sum);
+  }
+};
+
+/// Asks itself to stop at a step, as a signal would.
+std::atomic<bool> stop = false;
+std::int64_t stop_at = -1;
+std::int64_t first_step_run = -1;
+
+dem::Record counter_run(const dem::CaseSpec& spec, dem::RunContext& context) {
+  const double value = spec.scenario.real("load.value");
+  if (value == spec.scenario.real("load.fails_at")) throw dem::CaseError("the counter cannot be packed");
+  Counter state;
+  dem::load_checkpoint(context.checkpoint, spec.content, state);
+  first_step_run = state.step;
+  const std::int64_t steps = spec.scenario.integer("load.steps");
+  for (; state.step < steps; ++state.step) {
+    if (state.step == stop_at) stop = true;
+    if (context.stop && context.stop->load()) {
+      dem::save_checkpoint(context.checkpoint, spec.content, state);
+      throw dem::Interrupted{};
+    }
+    state.sum += value / static_cast<double>(state.step + 1);
+    context.report({"counting", state.step, static_cast<double>(state.step) / static_cast<double>(steps), 0, 0});
+  }
+  dem::Record record;
+  record.results = {{"sum", state.sum}};
+  record.checks = {{"counted", 0, 1, true, "It counts."}};
+  return record;
+}
+
+template <int version>
+std::vector<dem::Model> models_of_version() {
+  static const std::string text = std::to_string(version);
+  return {{"counter", text, counter_keys, counter_cases<version>, counter_run}};
+}
+
+/// A folder with a scenario, and what a run of it told.
+struct Bench {
+  test::Scratch folder;
+  std::vector<dem::Model> models = models_of_version<1>();
+  dem::StudyOptions options;
+  std::map<std::string, std::string> why;  ///< of the cases that were simulated
+  std::vector<std::string> notes;
+
+  Bench() {
+    stop = false;
+    stop_at = -1;
+    options.output = folder / "out";
+    options.stop = &stop;
+    std::ofstream(folder / "study.toml") << "model = \"counter\"\n[scales.draft]\n";
+  }
+
+  std::vector<dem::CaseOutcome> run(const std::vector<std::string>& overrides = {}) {
+    why.clear();
+    notes.clear();
+    const dem::Study study = dem::read_study(folder / "study.toml", "draft", overrides, models);
+    dem::StudyListener listener;
+    listener.begin = [&](const std::string& id, int, int, const std::string& reason) { why[id] = reason; };
+    listener.note = [&](const std::string& note) { notes.push_back(note); };
+    return dem::run_study(study, options, listener);
+  }
+
+  [[nodiscard]] fs::path record(const std::string& id) const {
+    return folder.path() / "out/study.draft/cases" / id / "results.h5";
+  }
+};
+
+std::vector<CaseState> states(const std::vector<dem::CaseOutcome>& outcomes) {
+  std::vector<CaseState> all;
+  for (const dem::CaseOutcome& outcome : outcomes) all.push_back(outcome.state);
+  return all;
+}
+
+constexpr auto kept = CaseState::kept;
+constexpr auto simulated = CaseState::simulated;
+
+}  // namespace
+
+TEST_CASE("a finished case is kept; a second call simulates nothing") {
+  Bench bench;
+  const auto first = bench.run();
+  CHECK(states(first) == std::vector{simulated, simulated, simulated});
+  CHECK(bench.why.at("count_1") == "no record");
+  const std::string bytes = dem::read_file(bench.record("count_2"));
+  const auto second = bench.run();
+  CHECK(states(second) == std::vector{kept, kept, kept});
+  CHECK(second.at(1).record->result("sum") == first.at(1).record->result("sum"));
+  CHECK(dem::read_file(bench.record("count_2")) == bytes);
+}
+
+TEST_CASE("the runner puts what it knows into the record") {
+  Bench bench;
+  bench.run({"seed=5"});
+  const dem::Record record = dem::read_record(bench.record("count_3"));
+  CHECK(record.model == "counter");
+  CHECK(record.scenario == "study");
+  CHECK(record.case_id == "count_3");
+  CHECK(record.physics_version == "1");
+  CHECK(record.seed == 5);
+  CHECK(record.number("value") == 3);
+  CHECK(record.content.find("load.steps = 10\n") != std::string::npos);
+}
+
+TEST_CASE("what changed is simulated again, and said in the declared unit") {
+  Bench bench;
+  bench.run();
+  SUBCASE("the seed") {
+    bench.run({"seed=2"});
+    CHECK(bench.why.size() == 3);
+    CHECK(bench.why.at("count_1") == "seed: 1 -> 2");
+  }
+  SUBCASE("a quantity") {
+    bench.run({"load.stress=\"0.3 GPa\""});
+    CHECK(bench.why.at("count_3") == "load.stress: 100 MPa -> 300 MPa");
+  }
+  SUBCASE("two keys") {
+    bench.run({"load.stress=\"50 MPa\"", "load.steps=11"});
+    CHECK(bench.why.at("count_3") == "load.steps: 10 -> 11, load.stress: 100 MPa -> 50 MPa");
+  }
+  SUBCASE("the version of the physics") {
+    bench.models = models_of_version<2>();
+    bench.run();
+    CHECK(bench.why.at("count_1") == "physics version: 1 -> 2");
+  }
+  SUBCASE("a sweep that grows: only the new case") {
+    CHECK(states(bench.run({"sweep.value=[1, 2, 3, 4]"})) == std::vector{kept, kept, kept, simulated});
+    CHECK(bench.why == std::map<std::string, std::string>{{"count_4", "no record"}});
+  }
+  SUBCASE("a key that no case depends on, a touched file: nothing") {
+    fs::last_write_time(bench.folder / "study.toml", fs::file_time_type::clock::now());
+    CHECK(states(bench.run({"title=\"Another\""})) == std::vector{kept, kept, kept});
+  }
+  SUBCASE("a record that is damaged") {
+    const std::string whole = dem::read_file(bench.record("count_2"));
+    dem::write_file(bench.record("count_2"), whole.substr(0, whole.size() / 2));
+    CHECK(states(bench.run()) == std::vector{kept, simulated, kept});
+    CHECK(bench.why.at("count_2").find("cut short, damaged") != std::string::npos);
+    CHECK(dem::read_file(bench.record("count_2")) == whole);
+  }
+  SUBCASE("--force") {
+    bench.options.force = true;
+    bench.options.only_case = "count_2";
+    CHECK(states(bench.run()) == std::vector{kept, simulated, kept});
+    CHECK(bench.why.at("count_2") == "asked for by --force");
+  }
+}
+
+TEST_CASE("a case that is stopped goes on from its checkpoint to the same bytes") {
+  Bench uncut;
+  uncut.run();
+  const std::string expected = dem::read_file(uncut.record("count_2"));
+
+  Bench bench;
+  bench.options.only_case = "count_2";
+  stop_at = 4;
+  CHECK_THROWS_AS(bench.run(), dem::Interrupted);
+  const fs::path checkpoint = bench.record("count_2").parent_path() / "checkpoint";
+  CHECK(fs::exists(checkpoint));
+  CHECK_FALSE(fs::exists(bench.record("count_2")));
+  stop = false;
+  stop_at = -1;
+
+  SUBCASE("goes on") {
+    bench.run();
+    CHECK(first_step_run == 4);
+    CHECK(bench.why.at("count_2") == "no record; goes on from its checkpoint");
+    CHECK(dem::read_file(bench.record("count_2")) == expected);
+  }
+  SUBCASE("damaged: from the start, and said") {
+    dem::write_file(checkpoint, dem::read_file(checkpoint).substr(0, 120));
+    bench.run();
+    CHECK(first_step_run == 0);
+    REQUIRE(bench.notes.size() == 1);
+    CHECK(bench.notes[0].find("is damaged") != std::string::npos);
+    CHECK(dem::read_file(bench.record("count_2")) == expected);
+  }
+  SUBCASE("of another input: from the start, and said") {
+    bench.run({"load.steps=7"});
+    CHECK(first_step_run == 0);
+    REQUIRE(bench.notes.size() == 1);
+    CHECK(bench.notes[0].find("belongs to another input") != std::string::npos);
+  }
+  SUBCASE("--force: from the start") {
+    bench.options.force = true;
+    bench.run();
+    CHECK(first_step_run == 0);
+  }
+  CHECK_FALSE(fs::exists(checkpoint));
+}
+
+TEST_CASE("a stop before the first case simulates nothing") {
+  Bench bench;
+  stop = true;
+  CHECK_THROWS_AS(bench.run(), dem::Interrupted);
+  CHECK(bench.why.empty());
+}
+
+TEST_CASE("a case that fails does not stop the others, and is tried again") {
+  Bench bench;
+  const auto outcomes = bench.run({"load.fails_at=2"});
+  CHECK(states(outcomes) == std::vector{simulated, CaseState::failed, simulated});
+  CHECK(outcomes[1].error == "the counter cannot be packed");
+  CHECK_FALSE(outcomes[1].record);
+  CHECK(states(bench.run({"load.fails_at=2"})) == std::vector{kept, CaseState::failed, kept});
+}
+
+TEST_CASE("--case runs one; the others are taken when they are current") {
+  Bench bench;
+  bench.options.only_case = "count_2";
+  CHECK(states(bench.run()) == std::vector{CaseState::left_out, simulated, CaseState::left_out});
+  bench.options.only_case = "count_3";
+  CHECK(states(bench.run()) == std::vector{CaseState::left_out, kept, simulated});
+  bench.options.only_case = "count_4";
+  CHECK_THROWS_WITH_AS(bench.run(), doctest::Contains("there is no case 'count_4'; did you mean 'count_1'?"),
+                       dem::InputError);
+}
+
+TEST_CASE("--report-only simulates nothing and does not draw what belongs to another input") {
+  Bench bench;
+  bench.options.only_case = "count_1";
+  bench.run();
+  bench.options.only_case.clear();
+  bench.options.report_only = true;
+  const auto outcomes = bench.run();
+  CHECK(states(outcomes) == std::vector{kept, CaseState::missing, CaseState::missing});
+  CHECK(outcomes[1].error.find("no record") != std::string::npos);
+  const auto other = bench.run({"seed=2"});
+  CHECK(other[0].state == CaseState::missing);
+  CHECK(other[0].error.find("seed: 1 -> 2") != std::string::npos);
+  CHECK(bench.why.empty());
+}
+
+TEST_CASE("output that cannot be written is named") {
+  Bench bench;
+  dem::write_file(bench.folder / "out", "a file in the way");
+  try {
+    bench.run();
+    FAIL("no error");
+  } catch (const dem::EnvironmentError& error) {
+    CHECK(std::string(error.what()).find((bench.folder / "out").string()) != std::string::npos);
+  }
+}
+
+TEST_CASE("a sweep with a value twice is refused") {
+  Bench bench;
+  CHECK_THROWS_WITH_AS(bench.run({"sweep.value=[1, 1]"}), doctest::Contains("two cases are alike (count_1)"),
+                       dem::InputError);
+}
+
+TEST_CASE("changes: indices of lists, values that come and go, and not too many at once") {
+  const std::vector<dem::Key> keys = {{.path = "mineral[].cohesion", .unit = "MPa", .help = ""},
+                                      {.path = "sweep.dip", .type = dem::KeyType::reals, .unit = "mm", .help = ""}};
+  CHECK(dem::changes("mineral[2].cohesion = 2.92e+08\n", "mineral[2].cohesion = 3e+08\n", keys) ==
+        "mineral[2].cohesion: 292 MPa -> 300 MPa");
+  CHECK(dem::changes("sweep.dip = [0.001, 0.25]\n", "sweep.dip = [0.001]\n", keys) ==
+        "sweep.dip: [1 mm, 250 mm] -> [1 mm]");
+  CHECK(dem::changes("a = 1\n", "a = 1\nb = \"x\"\n", keys) == "b: (none) -> \"x\"");
+  CHECK(dem::changes("a = 1\nb = 1\nc = 1\nd = 1\ne = 1\nf = 1\n", "a = 2\nb = 2\nc = 2\nd = 2\ne = 2\nf = 2\n",
+                     keys) == "a: 1 -> 2, b: 1 -> 2, c: 1 -> 2, d: 1 -> 2 and 2 more");
+  CHECK(dem::changes("a = 1\n", "a = 1\n", keys).empty());
+}
+
+TEST_CASE("progress in a log: a line now and then, with an estimate of the time left") {
+  std::ostringstream out;
+  double now = 100;
+  dem::ProgressPrinter printer(out, dem::ProgressPrinter::Mode::lines, [&] { return now; });
+  printer.begin("compression_ar_2", 3, 6);
+  for (int second = 0; second <= 100; ++second, now += 1) {
+    printer.update({"loading", 100 * second, second / 100.0, 1e-5 * second, 1e6 * second});
+  }
+  std::istringstream lines(out.str());
+  std::vector<std::string> all;
+  for (std::string line; std::getline(lines, line);) all.push_back(line);
+  REQUIRE(all.size() >= 9);
+  CHECK(all.size() <= 10);
+  CHECK(all[1] == "compression_ar_2 (3/6) loading 20 %, step 2000, strain 0.02 %, stress 20 MPa, 1 min 20 s left");
+}
+
+TEST_CASE("progress on a terminal: one line, redrawn; quiet: nothing") {
+  std::ostringstream out;
+  double now = 0;
+  dem::ProgressPrinter bar(
+      out, dem::ProgressPrinter::Mode::bar, [&] { return now; }, 40);
+  bar.begin("a", 1, 1);
+  for (int i = 0; i < 1000; ++i, now += 0.001) bar.update({"loading", i, i / 1000.0, 0.01, 1e6});
+  bar.say("done");
+  const std::string text = out.str();
+  CHECK(std::count(text.begin(), text.end(), '\n') == 1);
+  CHECK(text.find("[##########..........] ") != std::string::npos);
+  CHECK(std::count(text.begin(), text.end(), '\r') < 15);
+  CHECK(text.ends_with("\r\033[Kdone\n"));
+
+  std::ostringstream silent;
+  dem::ProgressPrinter quiet(silent, dem::ProgressPrinter::Mode::quiet, [&] { return now; });
+  quiet.begin("a", 1, 1);
+  quiet.update({"loading", 1, 0.5, 0, 0});
+  quiet.say("done");
+  CHECK(silent.str().empty());
+}
+
+TEST_CASE("durations as a person says them") {
+  CHECK(dem::duration_text(0.2) == "0 s");
+  CHECK(dem::duration_text(59.4) == "59 s");
+  CHECK(dem::duration_text(83) == "1 min 23 s");
+  CHECK(dem::duration_text(7500) == "2 h 05 min");
+}
