@@ -1,4 +1,6 @@
 // Grain seeds, masking by ellipsoids, and growth (Zhao et al. 2021, section 2.3, steps 1 and 3).
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,6 +18,8 @@ constexpr double first_solid_fraction = 0.62;
 // The number of seeds follows from the solid fraction that their own packing reaches: found in one or two rounds.
 constexpr int seed_rounds = 4;
 constexpr double seed_scale_tolerance = 0.005;
+// Few grains of a mineral meet its volume only with diameters somewhat off their range; off by more is refused.
+constexpr double range_tolerance = 0.2;
 
 /// Uniform diameters of one mineral that fill `wanted` m3: one diameter from each of `count` equal parts of the range,
 /// so that few grains, too, represent it; then all by one factor to meet the volume exactly.
@@ -33,6 +37,12 @@ std::vector<double> draw_radii(const MineralGrains& mineral, double seed_scale, 
     filled += sphere_volume(radii[k]);
   }
   for (double& r : radii) r *= std::cbrt(wanted / filled);
+  const auto [least, most] = std::minmax_element(radii.begin(), radii.end());
+  if (*least < (1 - range_tolerance) * low || *most > (1 + range_tolerance) * high)
+    throw CaseError(
+        fmt::format("the share of mineral {} in a specimen of this size is {:.3g} mm3: no number of grains of "
+                    "{:.3g} to {:.3g} mm makes that; take a larger specimen or a smaller seed scale",
+                    index + 1, 1e9 * wanted, 2e3 * low, 2e3 * high));
   return radii;
 }
 
@@ -49,7 +59,10 @@ Cloud draw_seeds(const Cylinder& vessel, const std::vector<MineralGrains>& miner
     const double wanted = minerals[m].share * solid_fraction * volume(vessel);
     for (const double r : draw_radii(minerals[m], seed_scale, wanted, seed, static_cast<std::uint32_t>(m))) {
       if (2 * r > std::min(vessel.diameter, vessel.height))
-        throw CaseError("a grain seed is larger than the specimen: take a larger specimen or a smaller seed scale");
+        throw CaseError(
+            fmt::format("a grain seed of {:.3g} mm does not fit in the specimen: take a larger specimen or a "
+                        "smaller seed scale",
+                        2e3 * r));
       const auto index = static_cast<std::uint32_t>(cloud.spheres.size());
       const Vec3 at = random_place(vessel, r, seed, Purpose::grain_seed_positions, index);
       cloud.spheres.push_back({at[0], at[1], at[2], r});

@@ -17,9 +17,12 @@ constexpr double first_unbalance = 3e-2;  // of the cloud, before the radii are 
 // Neighbour lists reach this far beyond touch, in mean radii.
 constexpr double coarse_skin = 0.4;
 constexpr double skin = 0.2;
-constexpr double largest_change = 0.01;  // of the radii at once
+constexpr double largest_change = 0.02;  // of the radii at once
 // d(P/E) / d(ln radius) of an affine deformation, solid fraction 0.667 and 7 contacts a sphere: solid * Z / 4.
 constexpr double affine_slope = 1.17;
+// Mean contact force over pressure and squared mean radius, from the same numbers: 4 pi / (solid * Z).
+constexpr double typical_force = 2.7;
+constexpr double force_floor = 0.01;  // contacts below this part of the typical force are as good as none
 
 /// The three lowest-order digits of a Morton code are bit `b` of x, y and z.
 std::uint64_t morton(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
@@ -56,7 +59,8 @@ class Settling {
         context_(context),
         unit_(mean_radius(cloud)),
         origin_(space_filling_order(cloud)),
-        pile_(vessel.diameter / unit_, vessel.height / unit_, in_order(cloud, origin_, 1 / unit_), context.threads) {}
+        pile_(vessel.diameter / unit_, vessel.height / unit_, in_order(cloud, origin_, 1 / unit_),
+              force_floor * typical_force * goal.pressure, context.threads) {}
 
   Settled run() {
     // The radii are found on a pile roughly at rest, which costs little, and followed as it comes to rest.
@@ -90,7 +94,7 @@ class Settling {
       throw CaseError(
           fmt::format("the packing does not come to rest: after {} steps the mean net force is still {:.1e} "
                       "of the mean contact force",
-                      pile_.steps(), pile_.state().unbalance()));
+                      pile_.steps(), pile_.unbalance()));
   }
 
   /// Secant search: the slope comes from the last two states, and from the affine estimate at first.

@@ -68,13 +68,16 @@ void Pile::Sums::add(const Sums& other) {
   contacts += other.contacts;
 }
 
-Pile::Pile(double diameter, double height, std::vector<Sphere> spheres, int threads)
+Pile::Pile(double diameter, double height, std::vector<Sphere> spheres, double force_floor, int threads)
     : radius_(diameter / 2),
       height_(height),
+      force_floor_(force_floor),
       threads_(std::max(threads, 1)),
       spheres_(std::move(spheres)),
       velocity_(spheres_.size()),
       force_(spheres_.size()) {}
+
+double Pile::unbalance() const { return state_.mean_unbalanced / std::max(state_.mean_contact_force, force_floor_); }
 
 std::size_t Pile::blocks() const { return (spheres_.size() + block_size - 1) / block_size; }
 
@@ -236,7 +239,7 @@ bool Pile::relax(double tolerance, double skin, int max_steps, const Watch& watc
   for (int step = 0; step < max_steps; ++step, ++steps_) {
     Sums sums = evaluate();
     if (step % watch_interval == 0) watch(state_);
-    if (state_.unbalance() <= tolerance) return true;
+    if (unbalance() <= tolerance) return true;
     if (sums.power > 0) {
       if (++downhill > delay) {
         dt = std::min(dt * grow, dt_max);
@@ -259,7 +262,7 @@ bool Pile::relax(double tolerance, double skin, int max_steps, const Watch& watc
     if (4 * farthest > skin * skin) find_neighbours(skin);
   }
   evaluate();
-  return state_.unbalance() <= tolerance;
+  return unbalance() <= tolerance;
 }
 
 std::vector<int> Pile::contact_counts() const {

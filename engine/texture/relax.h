@@ -26,21 +26,22 @@ struct PileState {
   double mean_unbalanced = 0;     ///< mean magnitude of the net force, over spheres
   double wall_pressure = 0;       ///< sum of all wall forces / (both ends + mantle): area-weighted over the three walls
   std::size_t contacts = 0;       ///< sphere-sphere
-
-  [[nodiscard]] double unbalance() const {
-    return mean_contact_force > 0 ? mean_unbalanced / mean_contact_force : (mean_unbalanced > 0 ? 1.0 : 0.0);
-  }
 };
 
 class Pile {
  public:
-  Pile(double diameter, double height, std::vector<Sphere> spheres, int threads);
+  Pile(double diameter, double height, std::vector<Sphere> spheres, double force_floor, int threads);
 
   /// Called every some tens of steps with the latest state; may throw to end the relaxation.
   using Watch = std::function<void(const PileState&)>;
 
-  /// Moves the spheres until unbalance() <= tolerance. False when `max_steps` were not enough.
+  /// Moves the spheres until unbalance() <= tolerance. False when `max_steps` were not enough. Neighbour lists reach
+  /// `skin` beyond touch.
   bool relax(double tolerance, double skin, int max_steps, const Watch& watch);
+
+  /// Mean net force over mean contact force; the latter is not taken below `force_floor`, so that spheres that hardly
+  /// touch count as at rest.
+  [[nodiscard]] double unbalance() const;
 
   void scale_radii(double factor);
   /// Takes out the spheres for which keep[i] is false.
@@ -74,6 +75,7 @@ class Pile {
 
   double radius_;  // of the vessel
   double height_;
+  double force_floor_;
   int threads_;
   std::vector<Sphere> spheres_;
   std::vector<Sphere> searched_;  // where the spheres were at the last neighbour search

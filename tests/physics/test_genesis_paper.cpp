@@ -1,0 +1,30 @@
+// The specimen of the published size: 25 x 50 mm, R_min 0.35 mm.
+#include <doctest/doctest.h>
+
+#include "tests/physics/granite.h"
+
+using namespace dem;
+using namespace dem::texture;
+
+TEST_CASE("the published specimen has the published number of particles") {
+  RunContext context;
+  context.threads = 2;
+  const Packing packing = pack(granite_packing(25e-3), context);
+  CHECK(static_cast<double>(packing.radius.size()) == doctest::Approx(36528).epsilon(0.01));
+  CHECK(packing.coordination == doctest::Approx(7.13).epsilon(0.01));
+  CHECK(packing.pressure == doctest::Approx(0.01 * 58e9).epsilon(0.01));
+  MESSAGE("particles " << packing.radius.size() << ", coordination " << packing.coordination << ", porosity "
+                       << packing.porosity);
+  const GrainSeeds seeds = seed_grains({25e-3, 50e-3}, granite_minerals(), 1, 1, context);
+  CHECK(static_cast<double>(seeds.radius.size()) == doctest::Approx(1147).epsilon(0.05));
+  double before = 0;
+  for (const double aspect_ratio : {1.0, 2.0, 3.0}) {
+    const GrainMap map = grow_grains(packing, seeds, {aspect_ratio, 0, 0});
+    double inter = 0;
+    for (const auto& [i, j] : packing.contacts) inter += map.grain[i] != map.grain[j] ? 1 : 0;
+    const double share = inter / static_cast<double>(packing.contacts.size());
+    MESSAGE("aspect ratio " << aspect_ratio << ", inter-grain share " << share);
+    CHECK(share > before);  // Eq. 14: the more elongated, the more surface
+    before = share;
+  }
+}
