@@ -1,11 +1,13 @@
 // The table of models: a model is one entry here.
+#include "engine/lattice/model.h"
 #include "engine/study/model.h"
 #include "engine/study/study.h"
+#include "engine/texture/model.h"
 
 namespace dem {
 
 std::span<const Model> models() {
-  static const std::vector<Model> table = {};
+  static const std::vector<Model> table = {texture::model(), lattice::model()};
   return table;
 }
 

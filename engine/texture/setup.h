@@ -23,15 +23,12 @@ struct Settings {
   bool same_mineral_boundaries = true;   ///< grains of one mineral meet in parallel bonds too
   double damping = 0.7;
   double time_step_factor = 0.8;
-  double compression_rate = 1e-7;        ///< strain a step
-  double tension_rate = 2e-8;
-  double ramp_strain = 2e-5;             ///< platens reach their speed over this strain
-  double compression_stop = 0.8;         ///< of the peak, after it
-  double tension_stop = 0.5;
-  double strain_limit = 3;               ///< times the strain of the peak
-  double grip = 0.05;                    ///< thickness of a grip over the height
-  double sample_strain = 1e-5;           ///< between samples, compression
-  double tension_sample_strain = 1e-6;
+  double rate = 1e-7;                    ///< strain a step
+  double ramp_strain = 2e-5;             ///< platens or grips reach their speed over this strain
+  double stop = 0.8;                     ///< the test ends at this share of the peak, after it
+  double strain_limit = 3;               ///< or at this multiple of the strain of the peak (compression)
+  double sample_strain = 1e-5;           ///< between samples
+  double grip = 0.05;                    ///< thickness of a gripped disc over the height
   double gauge = 0.6;                    ///< length of the strain gauge over the height
   double stiffness_departure = 0.02;     ///< of the axial stiffness at crack initiation
 };

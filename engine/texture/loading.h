@@ -1,0 +1,52 @@
+#pragma once
+// Uniaxial compression between frictionless platens and direct tension between grips: one test on one specimen, from the
+// first step to its stopping rule. The state is whole: a cut test goes on to the same bits.
+#include <string>
+#include <vector>
+
+#include "engine/texture/measure.h"
+#include "engine/texture/setup.h"
+
+namespace dem::texture {
+
+/// Displacements at one sample, kept at regular strains so that named moments can be shown afterwards.
+struct Frame {
+  std::int64_t row = 0;              ///< of the history
+  std::vector<float> displacement;   ///< m, three a particle
+  template <class Archive>
+  void archive(Archive& a) {
+    a(row, displacement);
+  }
+};
+
+class LoadingTest {
+ public:
+  LoadingTest(const Specimen& specimen, const Settings& settings, int threads);
+
+  /// Goes on to the next sample. False when the test has ended. Throws CaseError when the motion has blown up.
+  bool advance();
+  [[nodiscard]] bool ended() const { return ended_; }
+  [[nodiscard]] double fraction() const;  ///< rough share of the test that is done
+
+  [[nodiscard]] const std::vector<HistoryRow>& history() const { return history_; }
+  [[nodiscard]] const std::vector<Frame>& frames() const { return frames_; }
+  [[nodiscard]] const Assembly& assembly() const { return assembly_; }
+
+  template <class Archive>
+  void archive(Archive& a) {
+    a(assembly_, history_, frames_, counted_, crack_counts_, ended_);
+  }
+
+ private:
+  Settings settings_;
+  StrainGauge gauge_;
+  std::vector<Vec3> start_;
+  Assembly assembly_;
+  std::vector<HistoryRow> history_;
+  std::vector<Frame> frames_;
+  std::int64_t counted_ = 0;  ///< cracks that are in crack_counts_
+  std::array<double, 4> crack_counts_{};
+  bool ended_ = false;
+};
+
+}  // namespace dem::texture

@@ -1,0 +1,298 @@
+#include "engine/texture/results.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace dem::texture {
+namespace {
+
+constexpr double residual_limit = 1e-2;     // of max(W, 1e-2 W_peak)
+constexpr double imbalance_limit = 0.02;    // difference of the two ends over the peak stress
+constexpr double mega = 1e-6, giga = 1e-9;
+
+std::string words(std::string text) {
+  std::replace(text.begin(), text.end(), ' ', '_');
+  return text;
+}
+
+std::vector<double> flat(const std::vector<Vec3>& points) {
+  std::vector<double> out;
+  for (const Vec3& p : points) out.insert(out.end(), p.begin(), p.end());
+  return out;
+}
+
+Table particle_table(const Specimen& specimen, const Settings& settings) {
+  std::string minerals;
+  for (const Mineral& m : settings.minerals) minerals += (minerals.empty() ? "" : ",") + m.name;
+  Table t{"particles",
+          {{"minerals", minerals},
+           {"diameter", fmt::format("{}", settings.packing.vessel.diameter)},
+           {"height", fmt::format("{}", settings.packing.vessel.height)},
+           {"aspect_ratio", fmt::format("{}", settings.shape.aspect_ratio)},
+           {"growth_round", "0 masked by the ellipsoid of its grain, n claimed in round n of growth"}},
+          {}};
+  t.add("position", "m", flat(specimen.packing.position), 3);
+  t.add("radius", "m", specimen.packing.radius);
+  t.add("grain", "", specimen.grains.grain);
+  t.add("mineral", "", specimen.grains.mineral);
+  t.add("growth_round", "", specimen.grains.growth_round);
+  return t;
+}
+
+Table grain_table(const Specimen& specimen, const Settings& settings) {
+  const std::size_t n = specimen.seeds.position.size();
+  std::vector<std::int32_t> count(n, 0);
+  for (const std::int32_t g : specimen.grains.grain) ++count[static_cast<std::size_t>(g)];
+  const double lambda = std::cbrt(settings.shape.aspect_ratio);
+  const double dip = settings.shape.dip, azimuth = settings.shape.dip_direction;
+  std::vector<double> axis, semi_long, semi_short;
+  for (std::size_t g = 0; g < n; ++g) {
+    for (const double v : {std::cos(dip) * std::cos(azimuth), std::cos(dip) * std::sin(azimuth), std::sin(dip)}) {
+      axis.push_back(v);
+    }
+    semi_long.push_back(lambda * lambda * specimen.seeds.radius[g]);
+    semi_short.push_back(specimen.seeds.radius[g] / lambda);
+  }
+  Table t{"grains", {}, {}};
+  t.add("centre", "m", flat(specimen.seeds.position), 3);
+  t.add("radius", "m", specimen.seeds.radius);
+  t.add("mineral", "", specimen.seeds.mineral);
+  t.add("axis", "1", std::move(axis), 3);
+  t.add("particles", "", std::move(count));
+  t.add("semi_long", "m", std::move(semi_long));
+  t.add("semi_short", "m", std::move(semi_short));
+  return t;
+}
+
+Table contact_table(const Specimen& specimen) {
+  std::vector<std::int32_t> pair, kind, place;
+  for (const BondSpec& b : specimen.bonds) {
+    pair.push_back(b.first);
+    pair.push_back(b.second);
+    kind.push_back(b.boundary);
+    place.push_back(specimen.grains.grain[static_cast<std::size_t>(b.first)] !=
+                    specimen.grains.grain[static_cast<std::size_t>(b.second)]);
+  }
+  Table t{"contacts", {{"kind", "0 flat joint, 1 parallel bond"}, {"place", "0 inside a grain, 1 between grains"}}, {}};
+  t.add("pair", "", std::move(pair), 2);
+  t.add("kind", "", std::move(kind));
+  t.add("place", "", std::move(place));
+  return t;
+}
+
+// Axial strain at a step, from the history around it.
+double strain_at(const std::vector<HistoryRow>& h, double step) {
+  const auto after = std::lower_bound(h.begin(), h.end(), step, [](const HistoryRow& r, double s) { return r.step < s; });
+  if (after == h.begin()) return h.front().axial_strain;
+  if (after == h.end()) return h.back().axial_strain;
+  const auto before = after - 1;
+  const double f = (step - before->step) / (after->step - before->step);
+  return before->axial_strain + f * (after->axial_strain - before->axial_strain);
+}
+
+Table crack_table(const Specimen& specimen, const LoadingTest& test) {
+  std::vector<double> time, strain, position, normal, area;
+  std::vector<std::int32_t> mode, place, mineral_a, mineral_b, contact;
+  for (const Crack& c : test.assembly().cracks()) {
+    const BondSpec& bond = specimen.bonds[static_cast<std::size_t>(c.contact)];
+    const auto mineral = [&](std::int32_t p) { return specimen.grains.mineral[static_cast<std::size_t>(p)]; };
+    time.push_back(c.step * test.assembly().time_step());
+    strain.push_back(strain_at(test.history(), c.step));
+    mode.push_back(c.shear);
+    place.push_back(c.boundary);
+    position.insert(position.end(), c.position.begin(), c.position.end());
+    normal.insert(normal.end(), c.normal.begin(), c.normal.end());
+    area.push_back(c.area);
+    mineral_a.push_back(std::min(mineral(bond.first), mineral(bond.second)));
+    mineral_b.push_back(std::max(mineral(bond.first), mineral(bond.second)));
+    contact.push_back(c.contact);
+  }
+  Table t{"cracks", {{"mode", "0 tension, 1 shear"}, {"place", "0 inside a grain, 1 between grains"}}, {}};
+  t.add("time", "s", std::move(time));
+  t.add("strain", "1", std::move(strain));
+  t.add("mode", "", std::move(mode));
+  t.add("place", "", std::move(place));
+  t.add("position", "m", std::move(position), 3);
+  t.add("normal", "1", std::move(normal), 3);
+  t.add("area", "m^2", std::move(area));
+  t.add("mineral_a", "", std::move(mineral_a));
+  t.add("mineral_b", "", std::move(mineral_b));
+  t.add("contact", "", std::move(contact));
+  return t;
+}
+
+Table history_table(const std::vector<HistoryRow>& h) {
+  Table t{"history", {}, {}};
+  const auto column = [&](const char* name, const char* unit, auto get) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < h.size(); ++i) values.push_back(get(i));
+    t.add(name, unit, std::move(values));
+  };
+  column("time", "s", [&](std::size_t i) { return h[i].time; });
+  column("step", "1", [&](std::size_t i) { return h[i].step; });
+  column("platen_strain", "1", [&](std::size_t i) { return h[i].platen_strain; });
+  column("axial_strain", "1", [&](std::size_t i) { return h[i].axial_strain; });
+  column("lateral_strain", "1", [&](std::size_t i) { return h[i].lateral_strain; });
+  column("volumetric_strain", "1", [&](std::size_t i) { return h[i].volumetric_strain(); });
+  column("axial_stress", "Pa", [&](std::size_t i) { return h[i].axial_stress; });
+  column("stress_imbalance", "Pa", [&](std::size_t i) { return h[i].stress_imbalance; });
+  column("axial_stiffness", "Pa", [&](std::size_t i) { return axial_stiffness(h, i); });
+  const char* classes[] = {"cracks_intra_tension", "cracks_intra_shear", "cracks_inter_tension", "cracks_inter_shear"};
+  for (std::size_t k = 0; k < 4; ++k) column(classes[k], "1", [&](std::size_t i) { return h[i].cracks[k]; });
+  column("work", "J", [&](std::size_t i) { return h[i].ledger.work; });
+  column("elastic", "J", [&](std::size_t i) { return h[i].ledger.elastic; });
+  column("kinetic", "J", [&](std::size_t i) { return h[i].ledger.kinetic; });
+  column("damping", "J", [&](std::size_t i) { return h[i].ledger.damping; });
+  column("friction", "J", [&](std::size_t i) { return h[i].ledger.friction; });
+  column("bond_tension", "J", [&](std::size_t i) { return h[i].ledger.bond_tension; });
+  column("bond_shear", "J", [&](std::size_t i) { return h[i].ledger.bond_shear; });
+  column("residual", "J", [&](std::size_t i) { return h[i].ledger.residual(); });
+  return t;
+}
+
+double cracks_in(const HistoryRow& r) { return r.cracks[0] + r.cracks[1] + r.cracks[2] + r.cracks[3]; }
+
+// Named moments, each with the nearest kept frame.
+void add_snapshots(Record& record, const LoadingTest& test, const Characteristics& c, bool compression) {
+  const std::vector<HistoryRow>& h = test.history();
+  std::vector<std::pair<std::string, std::size_t>> moments;
+  const auto stress_row = [&](double stress) {
+    std::size_t i = 0;
+    while (i < c.peak && h[i].axial_stress < stress) ++i;
+    return i;
+  };
+  if (compression && c.damage) {
+    const double damage = h[*c.damage].axial_stress, peak = h[c.peak].axial_stress;
+    if (c.initiation_stiffness) {
+      moments.emplace_back("crack_initiation", *c.initiation_stiffness);
+      moments.emplace_back("stable_growth", stress_row(0.5 * (h[*c.initiation_stiffness].axial_stress + damage)));
+    }
+    moments.emplace_back("damage", *c.damage);
+    moments.emplace_back("unstable_growth", stress_row(0.5 * (damage + peak)));
+  }
+  moments.emplace_back("peak", c.peak);
+  for (std::size_t i = c.peak; i < h.size(); ++i) {
+    if (h[i].axial_stress <= 0.9 * h[c.peak].axial_stress) {
+      moments.emplace_back("post_peak", i);
+      break;
+    }
+  }
+  moments.emplace_back("end", h.size() - 1);
+  for (std::size_t k = 0; k < moments.size(); ++k) {
+    const auto& [name, row] = moments[k];
+    const Frame* nearest = &test.frames().front();
+    for (const Frame& frame : test.frames()) {
+      if (std::abs(static_cast<double>(frame.row) - static_cast<double>(row)) <
+          std::abs(static_cast<double>(nearest->row) - static_cast<double>(row))) {
+        nearest = &frame;
+      }
+    }
+    const HistoryRow& at = h[row];
+    Table t{fmt::format("snapshots/{:04d}", k),
+            {{"moment", name},
+             {"strain", fmt::format("{:.6g}", at.axial_strain)},
+             {"stress", fmt::format("{:.6g}", at.axial_stress)},
+             {"cracks", fmt::format("{:.0f}", cracks_in(at))},
+             {"displacement_at_strain", fmt::format("{:.6g}", h[static_cast<std::size_t>(nearest->row)].axial_strain)}},
+            {}};
+    t.add("displacement", "m", std::vector<double>(nearest->displacement.begin(), nearest->displacement.end()), 3);
+    record.tables.push_back(std::move(t));
+  }
+}
+
+void add_specimen_results(Record& record, const Specimen& specimen, const Settings& settings) {
+  const auto put = [&](const std::string& name, double value) { record.results.emplace_back(name, value); };
+  std::map<std::pair<std::int32_t, std::int32_t>, double> inter, intra;
+  double boundaries = 0;
+  for (const BondSpec& b : specimen.bonds) {
+    const auto i = static_cast<std::size_t>(b.first), j = static_cast<std::size_t>(b.second);
+    const auto pair = std::minmax(specimen.grains.mineral[i], specimen.grains.mineral[j]);
+    const bool between_grains = specimen.grains.grain[i] != specimen.grains.grain[j];
+    boundaries += between_grains;
+    (between_grains ? inter : intra)[{pair.first, pair.second}] += 1;
+  }
+  const auto contacts = static_cast<double>(specimen.bonds.size());
+  put("inter_grain_share", boundaries / contacts);
+  put("coordination", specimen.packing.coordination);
+  put("porosity", specimen.packing.porosity);
+  std::vector<double> volume(settings.minerals.size(), 0);
+  double all = 0;
+  for (std::size_t i = 0; i < specimen.packing.radius.size(); ++i) {
+    const double v = std::pow(specimen.packing.radius[i], 3);
+    volume[static_cast<std::size_t>(specimen.grains.mineral[i])] += v;
+    all += v;
+  }
+  const auto name = [&](std::int32_t m) { return words(settings.minerals[static_cast<std::size_t>(m)].name); };
+  for (std::size_t m = 0; m < volume.size(); ++m) put("mineral_share." + name(static_cast<std::int32_t>(m)), volume[m] / all);
+  for (const auto& [pair, count] : intra) put("contact_share.intra_" + name(pair.first), count / contacts);
+  for (const auto& [pair, count] : inter) {
+    put("contact_share.inter_" + name(pair.first) + "_" + name(pair.second), count / contacts);
+  }
+}
+
+}  // namespace
+
+Record make_record(const Specimen& specimen, const Settings& settings, const LoadingTest& test) {
+  const bool compression = settings.test == TestKind::compression;
+  const std::vector<HistoryRow>& h = test.history();
+  const Characteristics c = characterise(h, settings.stiffness_departure, compression);
+  Record record;
+  const auto put = [&](const std::string& name, double value) { record.results.emplace_back(name, value); };
+  if (c.young_modulus) put("young_modulus_GPa", *c.young_modulus * giga);
+  if (c.poisson_ratio) put("poisson_ratio", *c.poisson_ratio);
+  put(compression ? "ucs_MPa" : "tensile_strength_MPa", h[c.peak].axial_stress * mega);
+  put("peak_strain", h[c.peak].axial_strain);
+  if (c.initiation_stiffness) {
+    put("crack_initiation_MPa.axial_stiffness", h[*c.initiation_stiffness].axial_stress * mega);
+    put("crack_initiation_strain.axial_stiffness", h[*c.initiation_stiffness].axial_strain);
+  }
+  if (c.stress_at_strain) put("crack_initiation_MPa.strain_0_1_percent", *c.stress_at_strain * mega);
+  if (compression && c.initiation_cracks) {
+    put("crack_initiation_MPa.one_percent_of_cracks", h[*c.initiation_cracks].axial_stress * mega);
+  }
+  if (c.initiation_volume) put("crack_initiation_MPa.crack_volumetric_strain", h[*c.initiation_volume].axial_stress * mega);
+  if (c.damage) {
+    put("crack_damage_MPa", h[*c.damage].axial_stress * mega);
+    put("crack_damage_strain", h[*c.damage].axial_strain);
+  }
+  add_specimen_results(record, specimen, settings);
+  const char* classes[] = {"intra_tension", "intra_shear", "inter_tension", "inter_shear"};
+  for (std::size_t k = 0; k < 4; ++k) put(std::string("cracks.") + classes[k], h.back().cracks[k]);
+  for (std::size_t k = 0; k < 4; ++k) put(std::string("cracks_at_peak.") + classes[k], h[c.peak].cracks[k]);
+
+  double peak_work = 0, residual = 0, imbalance = 0;
+  for (const HistoryRow& r : h) {
+    peak_work = std::max(peak_work, r.ledger.work);
+    const double scale = std::max(r.ledger.work, 1e-2 * peak_work);
+    if (scale > 0) residual = std::max(residual, std::abs(r.ledger.residual()) / scale);
+  }
+  for (std::size_t i = 0; i <= c.peak; ++i) imbalance = std::max(imbalance, std::abs(h[i].stress_imbalance));
+  imbalance /= h[c.peak].axial_stress;
+  put("energy_residual", residual);
+  put("stress_imbalance", imbalance);
+  put("steps", h.back().step + 1);
+  put("particles", static_cast<double>(specimen.packing.radius.size()));
+  put("contacts", static_cast<double>(specimen.bonds.size()));
+  put("grains", static_cast<double>(specimen.seeds.radius.size()));
+  put("fresh_contacts", static_cast<double>(test.assembly().fresh_contacts()));
+  put("time_step_s", test.assembly().time_step());
+
+  record.checks.push_back({"energy_residual", residual, residual_limit, residual <= residual_limit,
+                           "Largest residual of the energy account over max(W, 1 % of the largest W), W the work of the "
+                           "platens or grips, over all samples."});
+  record.checks.push_back({"equilibrium", imbalance, imbalance_limit, imbalance <= imbalance_limit,
+                           "Largest difference between the stresses at the two ends up to the peak, over the peak stress."});
+
+  record.tables.push_back(particle_table(specimen, settings));
+  record.tables.push_back(grain_table(specimen, settings));
+  record.tables.push_back(contact_table(specimen));
+  record.tables.push_back(crack_table(specimen, test));
+  record.tables.push_back(history_table(h));
+  add_snapshots(record, test, c, compression);
+  return record;
+}
+
+}  // namespace dem::texture
