@@ -25,6 +25,7 @@ int other_axis(int axis, int which) { return which == 0 ? (axis == 0 ? 1 : 0) : 
 ElasticPoint point_of(const Sample& s, double area) {
   ElasticPoint p;
   p.strain = s.strain;
+  p.between_planes = s.between_planes;
   p.young_modulus = 0.5 * (s.force[0] + s.force[1]) / area / s.strain;
   for (std::size_t i = 0; i < 2; ++i) p.poisson[i] = -s.lateral[i] / s.strain;
   return p;
@@ -125,7 +126,8 @@ void StrengthTest::restore(const State& s) {
   over_ = s.counts.at(4) != 0;
 }
 
-std::vector<ElasticPoint> elastic_at_rest(const Block& block, Setup setup, const std::vector<double>& strains) {
+std::vector<ElasticPoint> elastic_at_rest(const Block& block, Setup setup, const std::vector<double>& strains,
+                                          const Tick& tick) {
   setup.unbreakable = true;
   setup.time_step = 0.5 * stable_time_step(setup.micro);
   setup.viscosity *= 2;
@@ -145,6 +147,7 @@ std::vector<ElasticPoint> elastic_at_rest(const Block& block, Setup setup, const
       solver.run(1, motion, -motion);
       Sample s;
       for (int round = 0; round < 200; ++round) {
+        tick(to / strains.back());
         solver.run(part == parts ? 200 : 100);
         s = solver.sampled_step();
         if (s.kinetic < (part == parts ? 1e-18 : 1e-10) * s.elastic()) break;
@@ -158,7 +161,7 @@ std::vector<ElasticPoint> elastic_at_rest(const Block& block, Setup setup, const
 }
 
 std::vector<ElasticPoint> elastic_by_steps(const Block& block, Setup setup, const Loading& loading,
-                                           const std::vector<double>& strains) {
+                                           const std::vector<double>& strains, const Tick& tick) {
   setup.unbreakable = true;
   Solver solver(block, setup);
   const Drift drift = drift_of(loading);
@@ -169,6 +172,7 @@ std::vector<ElasticPoint> elastic_by_steps(const Block& block, Setup setup, cons
     while (points.size() < strains.size() && std::abs(s.strain) >= strains[points.size()])
       points.push_back(point_of(s, area));
     solver.run(loading.settle - 1);
+    tick(std::abs(s.strain) / strains.back());
   }
   return points;
 }

@@ -2,6 +2,7 @@
 // Strength tests and elastic series on a block (Liu et al. 2017, section 5): step-wise motion of the planes with time
 // steps between to damp waves. Samples are taken once a loading step, and at every time step while bonds break.
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "engine/lattice/solver.h"
@@ -39,7 +40,7 @@ class StrengthTest {
   [[nodiscard]] double largest_residual() const {
     return residual_;
   }  ///< |imbalance| / max(W, W_peak / 1000) over all samples taken
-  [[nodiscard]] double largest_work() const { return work_; }
+  [[nodiscard]] double latest_stress() const { return last_stress_; }
   /// Step of the first sample with frictional heat above a millionth of the work; -1: none.
   [[nodiscard]] std::int64_t friction_from() const { return friction_from_; }
 
@@ -49,6 +50,10 @@ class StrengthTest {
     Sample peak;
     std::vector<double> numbers;
     std::vector<std::int64_t> counts;
+    template <class Archive>
+    void archive(Archive& a) {
+      a(solver, history, peak, numbers, counts);
+    }
   };
   [[nodiscard]] State state() const;
   void restore(const State& state);
@@ -74,6 +79,7 @@ double cross_section(const Block& block, int axis);
 /// Secant moduli at one strain.
 struct ElasticPoint {
   double strain = 0;           ///< axial, negative in compression
+  double between_planes = 0;   ///< strain from the motion of the planes
   double young_modulus = 0;    ///< Pa
   double poisson[2] = {0, 0};  ///< across the two other axes, in order
 };
@@ -81,10 +87,14 @@ struct ElasticPoint {
 /// Compresses the block to about each of the strains (positive, rising) and lets it come to rest there: time steps at
 /// half the stable limit and twice the viscosity, until the kinetic energy is below 1e-18 of the elastic. Bonds do not
 /// break.
-std::vector<ElasticPoint> elastic_at_rest(const Block& block, Setup setup, const std::vector<double>& strains);
+/// `tick` hears of the share done and may throw.
+using Tick = std::function<void(double)>;
+std::vector<ElasticPoint> elastic_at_rest(
+    const Block& block, Setup setup, const std::vector<double>& strains, const Tick& tick = [](double) {});
 
 /// The same by the paper's loading: `motion` of each plane (or the high one) and `settle` time steps.
-std::vector<ElasticPoint> elastic_by_steps(const Block& block, Setup setup, const Loading& loading,
-                                           const std::vector<double>& strains);
+std::vector<ElasticPoint> elastic_by_steps(
+    const Block& block, Setup setup, const Loading& loading, const std::vector<double>& strains,
+    const Tick& tick = [](double) {});
 
 }  // namespace dem::lattice

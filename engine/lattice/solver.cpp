@@ -319,6 +319,7 @@ struct Solver::Impl {
     s.step = step;
     s.time = static_cast<double>(step) * dt;
     s.strain = face_strain(setup.axis);
+    s.between_planes = (planes[1].position - planes[0].position) / block.extent()[at(setup.axis)];
     s.lateral = {face_strain(setup.axis == 0 ? 1 : 0), face_strain(setup.axis == 2 ? 1 : 2)};
     s.viscous = to_heat * (sum_of_elements([](const Row& r) { return r.viscous; }) + planes[0].plate_viscous +
                            planes[1].plate_viscous);

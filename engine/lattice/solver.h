@@ -41,6 +41,7 @@ struct Sample {
   std::int64_t step = 0;
   double time = 0;
   double strain = 0;                ///< axial: mean motion of the end elements over the distance of end layers
+  double between_planes = 0;        ///< motion of the planes over the same distance
   std::array<double, 2> lateral{};  ///< strains across the other two axes, in order, from the means of the faces
   std::array<double, 2> force{};    ///< of the low and the high plane on the block, N, positive where it pulls outwards
   double elastic_normal = 0, elastic_shear = 0;
@@ -101,6 +102,10 @@ class Solver {
     std::vector<std::int32_t> code;
     std::int64_t step = 0;
     std::vector<Crack> cracks;
+    template <class Archive>
+    void archive(Archive& a) {
+      a(real, code, step, cracks);
+    }
   };
   [[nodiscard]] State state() const;
   void restore(const State& state);

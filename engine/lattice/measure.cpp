@@ -1,0 +1,304 @@
+// What a finished case leaves behind: tables, results, checks.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "engine/lattice/model.h"
+
+namespace dem::lattice {
+namespace {
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+// Stress and strain of samples as the scenario defines them, positive in the sense of the test.
+struct Measure {
+  double area, sense;
+  Gauge gauge;
+  Measure(const Settings& s, const Block& b)
+      : area(section_area(b, s.setup.axis, s.section)), sense(s.test == "tension" ? 1 : -1), gauge(s.gauge) {}
+  double stress(const Sample& s) const { return sense * 0.5 * (s.force[0] + s.force[1]) / area; }
+  double strain(const Sample& s) const { return sense * (gauge == Gauge::planes ? s.between_planes : s.strain); }
+};
+
+template <class Get>
+std::vector<double> column(const std::vector<Sample>& history, Get get) {
+  std::vector<double> values;
+  values.reserve(history.size());
+  for (const Sample& s : history) values.push_back(get(s));
+  return values;
+}
+
+Table history_table(const std::vector<Sample>& h, const Measure& m) {
+  Table t{"history",
+          {{"stress", "positive in the sense of the test"}, {"lateral", "strains across the two other axes"}},
+          {}};
+  t.add("time", "s", column(h, [](const Sample& s) { return s.time; }));
+  t.add("axial_strain", "1", column(h, [&](const Sample& s) { return m.strain(s); }));
+  t.add("lateral_strain_1", "1", column(h, [](const Sample& s) { return s.lateral[0]; }));
+  t.add("lateral_strain_2", "1", column(h, [](const Sample& s) { return s.lateral[1]; }));
+  t.add("axial_stress", "Pa", column(h, [&](const Sample& s) { return m.stress(s); }));
+  t.add("stress_low_plane", "Pa", column(h, [&](const Sample& s) { return m.sense * s.force[0] / m.area; }));
+  t.add("stress_high_plane", "Pa", column(h, [&](const Sample& s) { return m.sense * s.force[1] / m.area; }));
+  t.add("work", "J", column(h, [](const Sample& s) { return s.work; }));
+  t.add("elastic_normal", "J", column(h, [](const Sample& s) { return s.elastic_normal; }));
+  t.add("elastic_shear", "J", column(h, [](const Sample& s) { return s.elastic_shear; }));
+  t.add("elastic_planes", "J", column(h, [](const Sample& s) { return s.elastic_planes; }));
+  t.add("kinetic", "J", column(h, [](const Sample& s) { return s.kinetic; }));
+  if (std::any_of(h.begin(), h.end(), [](const Sample& s) { return s.gravity != 0; })) {
+    t.add("gravity", "J", column(h, [](const Sample& s) { return s.gravity; }));
+  }
+  t.add("viscous_heat", "J", column(h, [](const Sample& s) { return s.viscous; }));
+  t.add("breaking_heat_normal", "J", column(h, [](const Sample& s) { return s.breaking_normal; }));
+  t.add("breaking_heat_shear", "J", column(h, [](const Sample& s) { return s.breaking_shear; }));
+  t.add("frictional_heat", "J", column(h, [](const Sample& s) { return s.frictional; }));
+  t.add("residual", "J", column(h, [](const Sample& s) { return s.imbalance(); }));
+  t.add("opening", "1", column(h, [](const Sample& s) { return static_cast<double>(s.opening); }));
+  t.add("sliding", "1", column(h, [](const Sample& s) { return static_cast<double>(s.sliding); }));
+  return t;
+}
+
+Table crack_table(const std::vector<Crack>& cracks, const Block& block, double time_step) {
+  Table t{"cracks", {{"mode", "0 opening, 1 sliding"}}, {}};
+  std::vector<double> time, position, normal, heat_normal, heat_shear;
+  std::vector<std::int32_t> mode, element, direction;
+  for (const Crack& c : cracks) {
+    const auto bond = bond_vector(block.site[at(c.element)].layer & 1, c.direction);
+    time.push_back(static_cast<double>(c.step) * time_step);
+    mode.push_back(c.mode);
+    element.push_back(c.element);
+    direction.push_back(c.direction);
+    for (std::size_t i = 0; i < 3; ++i) {
+      position.push_back(block.position[at(c.element)][i] + 0.5 * block.diameter * bond[i]);
+      normal.push_back(bond[i]);
+    }
+    heat_normal.push_back(c.heat_normal);
+    heat_shear.push_back(c.heat_shear);
+  }
+  t.add("time", "s", std::move(time));
+  t.add("mode", "", std::move(mode));
+  t.add("element", "", std::move(element));
+  t.add("direction", "", std::move(direction));
+  t.add("position", "m", std::move(position), 3);
+  t.add("normal", "1", std::move(normal), 3);
+  t.add("heat_normal", "J", std::move(heat_normal));
+  t.add("heat_shear", "J", std::move(heat_shear));
+  return t;
+}
+
+Table displacement_table(const Solver& solver) {
+  Table t{"snapshots/0000", {{"moment", "end"}}, {}};
+  std::vector<double> u;
+  for (const auto& v : solver.displacement()) u.insert(u.end(), v.begin(), v.end());
+  t.add("displacement", "m", std::move(u), 3);
+  return t;
+}
+
+void tension_results(Record& r, const Settings& s, const StrengthTest& test, const Measure& m) {
+  const auto& h = test.history();
+  const double dt = s.setup.time_step;
+  const double strength = m.stress(test.peak());
+  r.results.emplace_back("tensile_strength_MPa", 1e-6 * strength);
+  r.results.emplace_back("tensile_error_percent", 100 * (strength / s.rock.tensile_strength - 1));
+  r.results.emplace_back("peak_strain", m.strain(test.peak()));
+  const auto& cracks = test.solver().cracks();
+  std::int64_t first = -1, last = -1;
+  for (const Crack& c : cracks) {
+    if (c.mode != 0) continue;
+    if (first < 0) first = c.step;
+    last = c.step;
+  }
+  r.results.emplace_back("failure_time_s", static_cast<double>(first) * dt);
+  r.results.emplace_back("crack_duration_s", static_cast<double>(last - first) * dt);
+  const double width = s.shape.ny * s.micro.diameter;  // the paper's 1.2 cm for 12 elements
+  if (last > first) r.results.emplace_back("crack_speed_m_per_s", width / (static_cast<double>(last - first) * dt));
+  double kinetic = 0, share = 0;
+  for (const Sample& x : h) {
+    if (x.kinetic <= kinetic || x.step < first) continue;
+    kinetic = x.kinetic;
+    share = x.kinetic / x.work;
+  }
+  r.results.emplace_back("kinetic_share_percent", 100 * share);
+  double before_parting = 0;
+  for (const Sample& x : h) {
+    if (x.step <= last) before_parting = x.frictional / x.work;
+  }
+  r.results.emplace_back("frictional_share_at_parting_percent", 100 * before_parting);
+  r.results.emplace_back("frictional_share_percent", 100 * h.back().frictional / h.back().work);
+  if (test.friction_from() >= 0) {
+    r.results.emplace_back("friction_after_last_opening_s", static_cast<double>(test.friction_from() - last) * dt);
+  }
+  r.results.emplace_back("viscous_share_of_heat_percent", 100 * h.back().viscous / h.back().heat());
+}
+
+// The loading step before the peak in which most bonds opened: A1 of the paper's Fig. 5.
+struct Opening {
+  std::size_t before = 0;  // sample
+  double low = 0;          // smallest stress up to the recovery
+};
+Opening largest_opening(const std::vector<Sample>& h, std::int64_t peak_step, const Measure& m) {
+  constexpr std::int64_t window = 300;  // steps: opening runs through the block like the crack in tension
+  Opening found;
+  std::int64_t most = 0;
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < h.size() && h[i].step < peak_step; ++i) {
+    while (end + 1 < h.size() && h[end + 1].step <= h[i].step + window && h[end + 1].step < peak_step) ++end;
+    const std::int64_t opened = h[end].opening - h[i].opening;
+    if (opened > most) {
+      most = opened;
+      found.before = i;
+    }
+  }
+  found.low = m.stress(h[found.before]);
+  for (std::size_t i = found.before; i < h.size() && h[i].step < h[found.before].step + 5 * window; ++i) {
+    found.low = std::min(found.low, m.stress(h[i]));
+  }
+  return found;
+}
+
+void compression_results(Record& r, const Settings& s, const StrengthTest& test, const Measure& m) {
+  const auto& h = test.history();
+  const double dt = s.setup.time_step;
+  const double strength = m.stress(test.peak());
+  r.results.emplace_back("ucs_MPa", 1e-6 * strength);
+  r.results.emplace_back("ucs_error_percent", 100 * (strength / s.rock.compressive_strength - 1));
+  r.results.emplace_back("peak_strain", m.strain(test.peak()));
+  const auto before_first = [&](auto Sample::*count) {
+    double stress = std::numeric_limits<double>::quiet_NaN();
+    for (const Sample& x : h) {
+      if (x.*count > 0) break;
+      stress = m.stress(x);
+    }
+    return 1e-6 * stress;
+  };
+  r.results.emplace_back("first_opening_MPa", before_first(&Sample::opening));
+  r.results.emplace_back("first_sliding_MPa", before_first(&Sample::sliding));
+  const Opening a1 = largest_opening(h, test.peak().step, m);
+  r.results.emplace_back("a1_MPa", 1e-6 * m.stress(h[a1.before]));
+  r.results.emplace_back("a1_strain", m.strain(h[a1.before]));
+  r.results.emplace_back("a1_after_MPa", 1e-6 * a1.low);
+  r.results.emplace_back("a1_time_s", h[a1.before].time);
+
+  // C1 to C2: the bonds that slide at the failure, from the peak on.
+  std::int64_t first = -1, last = -1;
+  std::vector<std::int64_t> slides;
+  for (const Crack& c : test.solver().cracks()) {
+    if (c.mode == 1 && c.step >= test.peak().step) slides.push_back(c.step);
+  }
+  if (!slides.empty()) {
+    first = slides.front();
+    last = slides[slides.size() * 99 / 100];  // all but the last hundredth: single bonds break long after
+  }
+  const auto sample_at = [&](std::int64_t step) {
+    const auto found = std::find_if(h.begin(), h.end(), [&](const Sample& x) { return x.step >= step; });
+    return found == h.end() ? h.back() : *found;
+  };
+  const Sample c1 = sample_at(first - 1), c2 = sample_at(last + 1);
+  r.results.emplace_back("sliding_start_s", static_cast<double>(first) * dt);
+  r.results.emplace_back("sliding_duration_s", static_cast<double>(last - first) * dt);
+  r.results.emplace_back(
+      "sliding_normal_heat_share_percent",
+      100 * (c2.breaking_normal - c1.breaking_normal) /
+          std::max(1e-300, c2.breaking_normal + c2.breaking_shear - c1.breaking_normal - c1.breaking_shear));
+  double kinetic = 0, elastic_least = test.peak().elastic();
+  for (const Sample& x : h) {
+    if (x.step < test.peak().step) continue;
+    kinetic = std::max(kinetic, x.kinetic);
+    elastic_least = std::min(elastic_least, x.elastic());
+  }
+  r.results.emplace_back("kinetic_share_percent", 100 * kinetic / test.peak().elastic());
+  r.results.emplace_back("elastic_left_percent", 100 * elastic_least / test.peak().elastic());
+  r.results.emplace_back("viscous_share_of_heat_percent",
+                         100 * (h.back().viscous - c1.viscous) / (h.back().heat() - c1.heat()));
+}
+
+void common_results(Record& r, const Block& block, std::int64_t steps) {
+  r.results.emplace_back("particles", static_cast<double>(block.site.size()));
+  r.results.emplace_back("contacts", static_cast<double>(block.bonds.size()));
+  r.results.emplace_back("steps", static_cast<double>(steps));
+}
+
+}  // namespace
+
+void add_block(Record& r, const Block& block) {
+  Table particles{"particles", {}, {}};
+  std::vector<double> position;
+  for (const auto& p : block.position) position.insert(position.end(), p.begin(), p.end());
+  particles.add("position", "m", std::move(position), 3);
+  particles.add("radius", "m", std::vector<double>(block.site.size(), 0.5 * block.diameter));
+  r.tables.push_back(std::move(particles));
+  Table contacts{"contacts", {{"direction", "0 along y, 1-2 to the next row, 3-5 to the layer above"}}, {}};
+  std::vector<std::int32_t> pair, direction;
+  for (const Block::Bond& b : block.bonds) {
+    pair.insert(pair.end(), {b.a, b.b});
+    direction.push_back(b.direction);
+  }
+  contacts.add("pair", "", std::move(pair), 2);
+  contacts.add("direction", "", std::move(direction));
+  r.tables.push_back(std::move(contacts));
+}
+
+void add_strength(Record& r, const Settings& s, const Block& block, const StrengthTest& test) {
+  const Measure m(s, block);
+  if (s.test == "tension") {
+    tension_results(r, s, test, m);
+  } else {
+    compression_results(r, s, test, m);
+  }
+  const Sample& end = test.history().back();
+  r.results.emplace_back("cracks.opening", static_cast<double>(end.opening));
+  r.results.emplace_back("cracks.sliding", static_cast<double>(end.sliding));
+  r.results.emplace_back("energy_residual", test.largest_residual());
+  common_results(r, block, test.solver().step());
+  constexpr double limit = 1e-3;
+  r.checks.push_back(
+      {"energy_residual", test.largest_residual(), limit, test.largest_residual() <= limit,
+       "Elastic, kinetic and potential energy and all heat add up to the work of the planes at every sample; the "
+       "residual is a share of the work, taken as at least a thousandth of its largest value."});
+  const auto unseen = static_cast<double>(test.solver().unseen_contacts());
+  r.checks.push_back(
+      {"contacts_outside_lattice", unseen, 0, unseen == 0,
+       "No two elements that are not neighbours in the lattice have come into contact, which the law would not see."});
+  add_block(r, block);
+  r.tables.push_back(crack_table(test.solver().cracks(), block, s.setup.time_step));
+  r.tables.push_back(history_table(test.history(), m));
+  r.tables.push_back(displacement_table(test.solver()));
+}
+
+void add_elastic(Record& r, const Settings& s, const Block& block, const std::vector<ElasticPoint>& points) {
+  const double from_centres = cross_section(block, s.setup.axis) / section_area(block, s.setup.axis, s.section);
+  Table t{"elastic", {{"axial_strain", "positive in compression"}}, {}};
+  std::vector<double> strain, between, modulus, nu, nu1, nu2;
+  double e_error = 0, nu_error = 0;
+  for (const ElasticPoint& p : points) {
+    const double gauge = s.gauge == Gauge::planes ? p.strain / p.between_planes : 1;
+    strain.push_back(-p.strain / gauge);
+    between.push_back(-p.between_planes);
+    modulus.push_back(p.young_modulus * from_centres * gauge);
+    nu1.push_back(p.poisson[0] * gauge);
+    nu2.push_back(p.poisson[1] * gauge);
+    nu.push_back(0.5 * (nu1.back() + nu2.back()));
+    e_error += std::abs(modulus.back() / s.rock.young_modulus - 1) / static_cast<double>(points.size());
+    nu_error += std::abs(nu.back() / s.rock.poisson_ratio - 1) / static_cast<double>(points.size());
+  }
+  r.results.emplace_back("young_modulus_GPa", 1e-9 * modulus.front());
+  r.results.emplace_back("poisson_ratio", nu.front());
+  r.results.emplace_back("young_modulus_error_percent", 100 * e_error);
+  if (s.rock.poisson_ratio > 0) r.results.emplace_back("poisson_ratio_error_percent", 100 * nu_error);
+  r.results.emplace_back("young_modulus_at_largest_strain_GPa", 1e-9 * modulus.back());
+  r.results.emplace_back("poisson_ratio_at_largest_strain", nu.back());
+  common_results(r, block, 0);
+  r.results.pop_back();
+  t.add("axial_strain", "1", std::move(strain));
+  t.add("strain_between_planes", "1", std::move(between));
+  t.add("young_modulus", "Pa", std::move(modulus));
+  t.add("poisson_ratio", "1", std::move(nu));
+  t.add("poisson_ratio_1", "1", std::move(nu1));
+  t.add("poisson_ratio_2", "1", std::move(nu2));
+  r.tables.push_back(std::move(t));
+  add_block(r, block);
+}
+
+}  // namespace dem::lattice
