@@ -21,6 +21,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "render/culling.h"
 #include "render/scene_shapes.h"
 #include "render/vtk_triangles.h"
 
@@ -64,6 +65,20 @@ double eye_distance(const View& view) {
   return view.eye > 0 ? view.eye : std::max(view.near_z, 0.0) + view.over_z + 100;
 }
 
+/// A sphere in the view, and what it hides there: all behind it, behind its cut face, or (cut aslant) nothing.
+ViewSphere placed_sphere(const Scene& scene, const View& view, const Point& centre, double radius) {
+  ViewSphere sphere{view.to_view(centre), radius * view.pixels_per_metre, 0, 1e300};
+  if (untouched(scene.cuts, centre, radius)) {
+    sphere.hiding_radius = sphere.radius;
+  } else if (scene.cuts.size() == 1 && dot(unit(scene.cuts[0].normal), view.back) > 1 - 1e-12) {
+    sphere.top = view.to_view(scene.cuts[0].point)[2];
+    const double above = sphere.centre[2] - sphere.top;  // px beyond the cut
+    const double square = sphere.radius * sphere.radius - above * above;
+    sphere.hiding_radius = above > 0 ? std::sqrt(std::max(0.0, square)) : sphere.radius;
+  }
+  return sphere;
+}
+
 vtkSmartPointer<vtkActor> sphere_actor(const Spheres& spheres, const Scene& scene, const View& view) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkFloatArray> radii;
@@ -72,13 +87,21 @@ vtkSmartPointer<vtkActor> sphere_actor(const Spheres& spheres, const Scene& scen
   colours->SetName("colour");
   colours->SetNumberOfComponents(4);  // the mapper reads four, also where VTK would make do with three
   vtkNew<vtkCellArray> cells;         // without cells VTK takes the actor for empty and culls it
+  std::vector<ViewSphere> placed;
+  std::vector<std::size_t> from;
   for (std::size_t i = 0; i < spheres.centre.size(); ++i) {
     if (removed(scene.cuts, spheres.centre[i], spheres.radius[i])) continue;
-    const Point p = view.to_view(spheres.centre[i]);
-    const vtkIdType index = points->InsertNextPoint(p.data());
+    placed.push_back(placed_sphere(scene, view, spheres.centre[i], spheres.radius[i]));
+    from.push_back(i);
+  }
+  const std::vector<bool> drawn =
+      view.eye > 0 ? std::vector<bool>(placed.size(), true) : seen(placed, scene.width, scene.height);
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    if (!drawn[i]) continue;
+    const vtkIdType index = points->InsertNextPoint(placed[i].centre.data());
     cells->InsertNextCell(1, &index);
-    radii->InsertNextValue(static_cast<float>(spheres.radius[i] * view.pixels_per_metre));
-    const Colour& c = spheres.colour[i];
+    radii->InsertNextValue(static_cast<float>(placed[i].radius));
+    const Colour& c = spheres.colour[from[i]];
     const std::uint8_t rgba[4] = {byte(c.red), byte(c.green), byte(c.blue), 255};
     colours->InsertNextTypedTuple(rgba);
   }

@@ -287,6 +287,11 @@ bool removed(const std::vector<Scene::Cut>& cuts, const Point& centre, double ra
                      [&](const auto& cut) { return dot(centre - cut.point, unit(cut.normal)) >= radius; });
 }
 
+bool untouched(const std::vector<Scene::Cut>& cuts, const Point& centre, double radius) {
+  return std::all_of(cuts.begin(), cuts.end(),
+                     [&](const auto& cut) { return dot(centre - cut.point, unit(cut.normal)) <= -radius; });
+}
+
 Point View::to_view(const Point& world) const {
   const Point p = world - centre;
   return {pixels_per_metre * dot(p, right), pixels_per_metre * dot(p, up), pixels_per_metre * dot(p, back)};

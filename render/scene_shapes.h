@@ -32,6 +32,9 @@ View fit_view(const Scene& scene);
 /// True when the half spaces of `cuts` leave nothing of a sphere.
 bool removed(const std::vector<Scene::Cut>& cuts, const Point& centre, double radius);
 
+/// True when no cut takes anything of a sphere.
+bool untouched(const std::vector<Scene::Cut>& cuts, const Point& centre, double radius);
+
 /// Triangles with a colour and opacity at each corner.
 struct Triangles {
   std::vector<float> xyz;

@@ -36,13 +36,15 @@ int decimals(double step) {
 
 void linear_range(Scale& scale, const Axis& axis, const Range& data, int wanted, bool tight) {
   double low = axis.low.value_or(data.any ? data.low : 0), high = axis.high.value_or(data.any ? data.high : 1);
+  if (!std::isfinite(low)) low = data.any ? data.low : 0;
+  if (!std::isfinite(high)) high = data.any ? data.high : 1;
   if (!axis.low && !axis.high && low > 0 && low < 0.35 * high) low = 0;  // show zero when it is near
   if (!axis.low && !axis.high && high < 0 && high > 0.35 * low) high = 0;
-  if (!(high > low)) {  // one value only
+  if (!(high - low > 1e-11 * std::max(std::abs(low), std::abs(high)))) {  // one value only, to double precision
     const double room = low == 0 ? 1 : 0.1 * std::abs(low);
-    if (!axis.low) low -= room;
+    if (!axis.low || axis.high) low -= room;
     if (!axis.high) high += room;
-    if (!(high > low)) high = low + room;
+    if (!(high > low)) high = low + 2 * room;
   }
   if (!tight) {
     const double step = round_step((high - low) / wanted);
@@ -77,7 +79,7 @@ void linear_ticks(Scale& scale, int wanted) {
 void log_range(Scale& scale, const Axis& axis, const Range& data, bool tight) {
   double low = axis.low.value_or(data.any ? data.low : 1), high = axis.high.value_or(data.any ? data.high : 10);
   if (!(low > 0)) low = high > 0 ? high / 1000 : 1;
-  if (!(high > low)) {
+  if (!(high > low * (1 + 1e-9))) {
     if (!axis.low) low /= 3;
     high = std::max(high, low) * (axis.high ? 1.0000001 : 3);
   }
@@ -117,7 +119,8 @@ double Scale::share(double value) const {
 }
 
 void Range::take(double value) {
-  if (!std::isfinite(value)) return;
+  constexpr double too_large = 1e300;  // differences must stay finite
+  if (!(std::abs(value) < too_large)) return;
   low = any ? std::min(low, value) : value;
   high = any ? std::max(high, value) : value;
   any = true;

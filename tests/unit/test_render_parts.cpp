@@ -1,9 +1,13 @@
 // Axes, curves and colours of charts, without drawing.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
+#include "engine/core/random.h"
+#include "render/culling.h"
 #include "render/curve.h"
 #include "render/dashes.h"
 #include "render/occupancy.h"
@@ -83,6 +87,25 @@ TEST_CASE("an axis without data, with one value, or with given ends is still an 
   CHECK(scale.high == 37);
 }
 
+TEST_CASE("axes of senseless ranges end, too") {
+  const double huge = std::numeric_limits<double>::infinity();
+  for (const Range& r :
+       {range(1e17, 1e17 + 16), range(-huge, huge), range(0, 5e-310), range(-1e299, 1e299), range(1, 1 + 1e-15)})
+    for (bool logarithmic : {false, true}) {
+      Axis axis;
+      axis.logarithmic = logarithmic;
+      const Scale scale = render::make_scale(axis, r, 6, false);
+      CHECK(scale.high > scale.low);
+      CHECK(scale.ticks.size() < 400);
+      axis.low = huge;
+      axis.high = -huge;
+      CHECK(render::make_scale(axis, r, 6, false).ticks.size() < 400);
+      axis.low = 5;
+      axis.high = 2;
+      CHECK(render::make_scale(axis, r, 6, false).high > render::make_scale(axis, r, 6, false).low);
+    }
+}
+
 TEST_CASE("a log axis has labelled decades, minor ticks between, and no place for zero") {
   Axis axis;
   axis.logarithmic = true;
@@ -143,6 +166,33 @@ TEST_CASE("colours of the palette stay apart, in colour and for the first four i
       CHECK(std::abs(a.red - b.red) + std::abs(a.green - b.green) + std::abs(a.blue - b.blue) > 0.25);
     }
   }
+}
+
+TEST_CASE("only spheres that no ray reaches are left out") {
+  dem::RandomStream random(3, dem::Purpose::test_data);
+  std::vector<render::ViewSphere> spheres;
+  for (int i = 0; i < 3000; ++i)
+    spheres.push_back(
+        {{random.uniform(-60, 60), random.uniform(-60, 60), random.uniform(-60, 60)}, random.uniform(3, 7)});
+  for (std::size_t i = 0; i < spheres.size(); ++i) spheres[i].hiding_radius = i % 10 == 0 ? 0 : spheres[i].radius;
+  const auto drawn = render::seen(spheres, 120, 120);
+  std::set<std::size_t> reached;
+  for (double x = -59.75; x < 60; x += 0.5)
+    for (double y = -59.75; y < 60; y += 0.5) {
+      std::size_t first = spheres.size();
+      double nearest = -1e300;
+      for (std::size_t i = 0; i < spheres.size(); ++i) {
+        const auto& s = spheres[i];
+        const double square =
+            s.radius * s.radius - (x - s.centre[0]) * (x - s.centre[0]) - (y - s.centre[1]) * (y - s.centre[1]);
+        if (square <= 0 || s.centre[2] + std::sqrt(square) <= nearest) continue;
+        nearest = s.centre[2] + std::sqrt(square);
+        first = i;
+      }
+      if (first < spheres.size()) reached.insert(first);
+    }
+  for (std::size_t i : reached) CHECK(drawn[i]);
+  CHECK(std::count(drawn.begin(), drawn.end(), true) < 1000);  // and most of the hidden ones are
 }
 
 TEST_CASE("occupancy finds what lies in a rectangle and nothing beside it") {
