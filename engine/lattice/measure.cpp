@@ -96,6 +96,32 @@ Table displacement_table(const Solver& solver) {
   return t;
 }
 
+// First and last step of the opening that parts the block: of the runs of opening bonds without a pause of 300 steps,
+// in which a wave crosses the block, the one with most bonds.
+std::pair<std::int64_t, std::int64_t> main_burst(const std::vector<Crack>& cracks) {
+  constexpr std::int64_t pause = 300;
+  std::pair<std::int64_t, std::int64_t> best{-1, -1}, now{-1, -1};
+  std::size_t most = 0, bonds = 0;
+  for (const Crack& c : cracks) {
+    if (c.mode != 0) continue;
+    if (now.first < 0 || c.step > now.second + pause) {
+      now.first = c.step;
+      bonds = 0;
+    }
+    now.second = c.step;
+    if (++bonds > most) {
+      most = bonds;
+      best = now;
+    }
+  }
+  return best;
+}
+
+const Sample& sample_from(const std::vector<Sample>& h, std::int64_t step) {
+  const auto found = std::find_if(h.begin(), h.end(), [&](const Sample& x) { return x.step >= step; });
+  return found == h.end() ? h.back() : *found;
+}
+
 void tension_results(Record& r, const Settings& s, const StrengthTest& test, const Measure& m) {
   const auto& h = test.history();
   const double dt = s.setup.time_step;
@@ -103,13 +129,7 @@ void tension_results(Record& r, const Settings& s, const StrengthTest& test, con
   r.results.emplace_back("tensile_strength_MPa", 1e-6 * strength);
   r.results.emplace_back("tensile_error_percent", 100 * (strength / s.rock.tensile_strength - 1));
   r.results.emplace_back("peak_strain", m.strain(test.peak()));
-  const auto& cracks = test.solver().cracks();
-  std::int64_t first = -1, last = -1;
-  for (const Crack& c : cracks) {
-    if (c.mode != 0) continue;
-    if (first < 0) first = c.step;
-    last = c.step;
-  }
+  const auto [first, last] = main_burst(test.solver().cracks());
   r.results.emplace_back("failure_time_s", static_cast<double>(first) * dt);
   r.results.emplace_back("crack_duration_s", static_cast<double>(last - first) * dt);
   const double width = s.shape.ny * s.micro.diameter;  // the paper's 1.2 cm for 12 elements
@@ -131,6 +151,8 @@ void tension_results(Record& r, const Settings& s, const StrengthTest& test, con
     r.results.emplace_back("friction_after_last_opening_s", static_cast<double>(test.friction_from() - last) * dt);
   }
   r.results.emplace_back("viscous_share_of_heat_percent", 100 * h.back().viscous / h.back().heat());
+  r.results.emplace_back("viscous_heat_after_parting_percent",
+                         100 * (1 - sample_from(h, last + 1).viscous / h.back().viscous));
 }
 
 // The loading step before the peak in which most bonds opened: A1 of the paper's Fig. 5.
@@ -191,17 +213,15 @@ void compression_results(Record& r, const Settings& s, const StrengthTest& test,
     first = slides.front();
     last = slides[slides.size() * 99 / 100];  // all but the last hundredth: single bonds break long after
   }
-  const auto sample_at = [&](std::int64_t step) {
-    const auto found = std::find_if(h.begin(), h.end(), [&](const Sample& x) { return x.step >= step; });
-    return found == h.end() ? h.back() : *found;
-  };
-  const Sample c1 = sample_at(first - 1), c2 = sample_at(last + 1);
+  const Sample &c1 = sample_from(h, first - 1), &c2 = sample_from(h, last + 1);
   r.results.emplace_back("sliding_start_s", static_cast<double>(first) * dt);
   r.results.emplace_back("sliding_duration_s", static_cast<double>(last - first) * dt);
   r.results.emplace_back(
       "sliding_normal_heat_share_percent",
       100 * (c2.breaking_normal - c1.breaking_normal) /
           std::max(1e-300, c2.breaking_normal + c2.breaking_shear - c1.breaking_normal - c1.breaking_shear));
+  r.results.emplace_back("frictional_heat_after_sliding_percent",
+                         100 * (1 - c2.frictional / std::max(1e-300, h.back().frictional)));
   double kinetic = 0, elastic_least = test.peak().elastic();
   for (const Sample& x : h) {
     if (x.step < test.peak().step) continue;
