@@ -1,0 +1,168 @@
+// The program as used, on the shipped scenario at its smallest scale.
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "engine/core/files.h"
+#include "tests/cli/program.h"
+#include "tests/support/scratch.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using Texts = std::vector<std::string>;
+
+const std::string scenario = DEM_SOURCE_DIR "/scenarios/ldb_aspect_ratio.toml";
+const std::string id = "direct_tension_ar_1";
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// One case of the smoke scale, one figure, no PDF: the least that is a whole run.
+test::Outcome run(const fs::path& folder, const Texts& more = {}, const test::WhileRunning& meanwhile = {}) {
+  Texts arguments = {scenario,
+                     "--scale",
+                     "smoke",
+                     "--case",
+                     id,
+                     "--only",
+                     "stress_strain",
+                     "--format",
+                     "html",
+                     "--set",
+                     "direct_tension.rate=1e-7"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return test::run_program(folder, arguments, meanwhile);
+}
+
+fs::path output(const fs::path& folder) { return folder / "out" / "ldb_aspect_ratio.smoke"; }
+fs::path record(const fs::path& folder) { return output(folder) / "cases" / id / "results.h5"; }
+
+/// The exit code that the checks of the last run call for: 1 when one of them does not hold.
+int due_code(const fs::path& folder) {
+  return has(dem::read_file(output(folder) / "summary.json"), "\"held\": false") ? 1 : 0;
+}
+
+/// The record of an uncut run with one thread, made once for all tests of this file.
+const std::string& uncut_record() {
+  static const std::string bytes = [] {
+    const test::Scratch folder;
+    const test::Outcome outcome = run(folder.path(), {"--threads", "1"});
+    INFO(outcome.err);
+    REQUIRE(outcome.code == due_code(folder.path()));
+    return dem::read_file(record(folder.path()));
+  }();
+  return bytes;
+}
+
+/// Files in `folder` that are not being written.
+int whole_files(const fs::path& folder) {
+  int count = 0;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    if (!at->path().filename().string().starts_with(".")) ++count;
+  }
+  return count;
+}
+
+/// Sends a signal while the case is being loaded: its packing and its grains are there, its record is not.
+test::WhileRunning signalled(const fs::path& folder, int signal) {
+  return [=](int process) {
+    for (int i = 0; i < 12000 && whole_files(folder / "out" / "specimens") < 2; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    ::kill(process, signal);
+  };
+}
+
+}  // namespace
+
+TEST_CASE("a run leaves what it promises, a second one keeps it, and both give the same bytes") {
+  const test::Scratch folder;
+  const test::Outcome first = run(folder.path(), {"--threads", "2"});
+  CAPTURE(first.err);
+  REQUIRE(first.code == due_code(folder.path()));
+  CHECK(has(first.err, id + " ("));
+  CHECK(has(first.err, "simulated, no record"));
+  const fs::path out = output(folder.path());
+  for (const char* name : {"report.html", "summary.json", "run.json", "figures", "data"}) {
+    CAPTURE(name);
+    CHECK(fs::exists(out / name));
+  }
+  CHECK_FALSE(fs::exists(out / "report.pdf"));
+  CHECK_FALSE(fs::exists(out / "cases" / id / "checkpoint"));
+  CHECK(has(first.out, "out/ldb_aspect_ratio.smoke/report.html\n"));
+  CHECK(dem::read_file(record(folder.path())) == uncut_record());  // however many threads
+  const std::string page = dem::read_file(out / "report.html");
+  const std::string summary = dem::read_file(out / "summary.json");
+
+  const test::Outcome second = run(folder.path(), {"--threads", "1"});
+  CHECK(second.code == due_code(folder.path()));
+  CHECK(has(second.err, id + ": kept"));
+  CHECK_FALSE(has(second.err, "simulated"));
+  CHECK(dem::read_file(out / "report.html") == page);
+  CHECK(dem::read_file(out / "summary.json") == summary);
+
+  const test::Outcome redrawn = run(folder.path(), {"--report-only", "--quiet"});
+  CHECK(redrawn.code == due_code(folder.path()));
+  CHECK(redrawn.out.empty());
+  CHECK(redrawn.err.empty() == (redrawn.code == 0));
+  CHECK_FALSE(has(redrawn.err, "kept"));
+  CHECK(dem::read_file(out / "summary.json") == summary);
+
+  const test::Outcome other = run(folder.path(), {"--seed", "2", "--threads", "1"});
+  CHECK(other.code == due_code(folder.path()));
+  CHECK(has(other.err, "simulated, seed: 1 -> 2"));
+}
+
+TEST_CASE("a run that is stopped by a signal says so, and goes on to the same bytes") {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    CAPTURE(signal);
+    const test::Scratch folder;
+    const test::Outcome cut = run(folder.path(), {"--threads", "1"}, signalled(folder.path(), signal));
+    CAPTURE(cut.err);
+    REQUIRE(cut.code == 128 + signal);
+    CHECK(has(cut.err, "give the same command to go on"));
+    CHECK(fs::exists(record(folder.path()).parent_path() / "checkpoint"));
+    CHECK_FALSE(fs::exists(record(folder.path())));
+    CHECK_FALSE(fs::exists(output(folder.path()) / "report.html"));
+
+    const test::Outcome resumed = run(folder.path(), {"--threads", "1"});
+    CHECK(resumed.code == due_code(folder.path()));
+    CHECK(has(resumed.err, "goes on from its checkpoint"));
+    CHECK(dem::read_file(record(folder.path())) == uncut_record());
+    CHECK_FALSE(fs::exists(record(folder.path()).parent_path() / "checkpoint"));
+  }
+}
+
+TEST_CASE("a run that is killed leaves nothing half-written, and the next one the same bytes") {
+  const test::Scratch folder;
+  const test::Outcome killed = run(folder.path(), {"--threads", "1"}, signalled(folder.path(), SIGKILL));
+  REQUIRE(killed.code == 128 + SIGKILL);
+  CHECK_FALSE(fs::exists(record(folder.path())));
+  dem::write_file(record(folder.path()).parent_path() / ".results.h5.abcdef.part", "half a record");
+  const test::Outcome again = run(folder.path(), {"--threads", "1"});
+  CHECK(again.code == due_code(folder.path()));
+  CHECK(dem::read_file(record(folder.path())) == uncut_record());
+  CHECK(std::distance(fs::directory_iterator(record(folder.path()).parent_path()), {}) == 1);
+}
+
+TEST_CASE("records that are missing: the report is made, the exit code is 1") {
+  const test::Scratch folder;
+  const test::Outcome outcome = run(folder.path(), {"--report-only"});
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 1);
+  CHECK(has(outcome.err, "case " + id + " failed: There is no record to draw from (no record)"));
+  CHECK(fs::exists(output(folder.path()) / "report.html"));
+  CHECK(has(dem::read_file(output(folder.path()) / "report.html"), "There is no record to draw from"));
+}
+
+TEST_CASE("output that cannot be written: exit code 3, the path is named") {
+  const test::Scratch folder;
+  dem::write_file(folder / "out", "a file in the way");
+  const test::Outcome outcome = run(folder.path());
+  CHECK(outcome.code == 3);
+  CHECK(has(outcome.err, "dem-report: cannot make the folder out"));
+  CHECK(dem::read_file(folder / "out") == "a file in the way");
+}
