@@ -8,12 +8,12 @@
 namespace dem::sheet {
 namespace {
 
-constexpr int usual_solves = 2;        // of a relaxation with a good factor
-constexpr int refactor_after = 24;      // solves beyond the usual ones that are worth a new factor
-constexpr int most_changes = 300;      // rank beyond which corrections cost more than a new factor
-constexpr double peak_share = 0.02;    // of the largest unbalanced force: what patches are laid around
+constexpr int usual_solves = 2;      // of a relaxation with a good factor
+constexpr int refactor_after = 24;   // solves beyond the usual ones that are worth a new factor
+constexpr int most_changes = 300;    // rank beyond which corrections cost more than a new factor
+constexpr double peak_share = 0.02;  // of the largest unbalanced force: what patches are laid around
 constexpr std::size_t most_hot = 2000, most_patches = 6;
-constexpr double longest_step = 0.2;   // of a particle radius, in one step
+constexpr double longest_step = 0.2;  // of a particle radius, in one step
 
 }  // namespace
 
@@ -27,9 +27,9 @@ struct ConvergedSolver::Impl {
   // What the factor holds for each slot: whether it is in, and along which direction.
   std::vector<std::uint8_t> held;
   std::vector<double> nx, ny;
-  std::vector<int> watched;   // slots that are not joined
+  std::vector<int> watched;  // slots that are not joined
   Patches patches;
-  std::vector<double> u;      // load, then displacement, in elimination order
+  std::vector<double> u;  // load, then displacement, in elimination order
 
   Impl(const Sheet& sheet, ConvergedSettings s)
       : settings(s), dissection(sheet.lattice), factor(dissection, s.threads) {
@@ -136,9 +136,11 @@ struct ConvergedSolver::Impl {
         all.boxes.clear();
         break;
       }
-      const Hot worst = *std::max_element(hot.begin(), hot.end(), [](const Hot& a, const Hot& b) { return a.size < b.size; });
+      const Hot worst =
+          *std::max_element(hot.begin(), hot.end(), [](const Hot& a, const Hot& b) { return a.size < b.size; });
       all.boxes.push_back(Patches::around(sheet.lattice, worst.column, worst.row));
-      std::erase_if(hot, [&](const Hot& h) { return Patches::covers(sheet.lattice, all.boxes.back(), h.column, h.row); });
+      std::erase_if(hot,
+                    [&](const Hot& h) { return Patches::covers(sheet.lattice, all.boxes.back(), h.column, h.row); });
     }
     return all;
   }
@@ -310,7 +312,8 @@ struct ConvergedSolver::Impl {
       // A relaxation that goes on and on needs a factor of its own.
       if (result.iterations % 40 < solves && result.iterations >= 40) kept.extra_solves = refactor_after + 1;
     }
-    if (!fresh) kept.extra_solves = std::max<std::int64_t>(0, kept.extra_solves - std::min(usual_solves, result.iterations));
+    if (!fresh)
+      kept.extra_solves = std::max<std::int64_t>(0, kept.extra_solves - std::min(usual_solves, result.iterations));
     result.reached = balanced();
     result.unbalanced = now.largest_spring > 0 ? now.most / now.largest_spring : 0;
     return result;

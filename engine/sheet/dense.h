@@ -1,6 +1,6 @@
 #pragma once
-// Dense kernels of the sheet's factorisation: the partial Cholesky of a front, and the triangular solves with its panel.
-// Every element is accumulated in one fixed order, so results are the same bits for every vector width.
+// Dense kernels of the sheet's factorisation: the partial Cholesky of a front, and the triangular solves with its
+// panel. Every element is accumulated in one fixed order, so results are the same bits for every vector width.
 #include <cstddef>
 #include <span>
 

@@ -15,12 +15,24 @@ int Lattice::neighbour(int particle, int direction) const {
   const int shift = shifted(row) ? 1 : 0;
   int c = column, r = row;
   switch (direction) {
-    case 0: c += 1; break;
-    case 1: c += shift, r += 1; break;
-    case 2: c += shift - 1, r += 1; break;
-    case 3: c -= 1; break;
-    case 4: c += shift - 1, r -= 1; break;
-    default: c += shift, r -= 1; break;
+    case 0:
+      c += 1;
+      break;
+    case 1:
+      c += shift, r += 1;
+      break;
+    case 2:
+      c += shift - 1, r += 1;
+      break;
+    case 3:
+      c -= 1;
+      break;
+    case 4:
+      c += shift - 1, r -= 1;
+      break;
+    default:
+      c += shift, r -= 1;
+      break;
   }
   if (c < 0 || c >= columns || r < 0 || r >= rows) return -1;
   return r * columns + c;
@@ -81,7 +93,9 @@ int Dissection::divide(int c0, int c1, int r0, int r1, int leaf) {
   nodes.push_back(std::move(node));
   if (index + 1 == static_cast<int>(nodes.size()) && width == lattice.columns && height == lattice.rows) {
     // The root is known: every particle has its position, so boundaries can be found from the top down.
-    struct Box { int node, c0, c1, r0, r1; };
+    struct Box {
+      int node, c0, c1, r0, r1;
+    };
     std::vector<Box> stack{{index, c0, c1, r0, r1}};
     while (!stack.empty()) {
       const Box b = stack.back();
@@ -171,7 +185,8 @@ void Factor::eliminate(int index, const BlockMatrix& matrix, PivotRule rule, std
   };
   std::vector<double> diagonal(static_cast<std::size_t>(ns));
   const auto fixed = [&](int row) {
-    const int position = row < node.own() ? node.begin + row : node.boundary[static_cast<std::size_t>(row - node.own())];
+    const int position =
+        row < node.own() ? node.begin + row : node.boundary[static_cast<std::size_t>(row - node.own())];
     return matrix.fixed[static_cast<std::size_t>(d.order[static_cast<std::size_t>(position)])];
   };
   for (int p = 0; p < node.own(); ++p) {
@@ -210,7 +225,8 @@ void Factor::eliminate(int index, const BlockMatrix& matrix, PivotRule rule, std
   float* panel = panels_.data() + d.panel_offset[static_cast<std::size_t>(index)];
   for (int j = 0; j < ns; ++j) {
     const double* in = front.data() + static_cast<std::size_t>(j) * ld;
-    for (int i = j; i < nf; ++i) panel[static_cast<std::size_t>(j) * ld + static_cast<std::size_t>(i)] = static_cast<float>(in[i]);
+    for (int i = j; i < nf; ++i)
+      panel[static_cast<std::size_t>(j) * ld + static_cast<std::size_t>(i)] = static_cast<float>(in[i]);
     inverse_[static_cast<std::size_t>(2 * node.begin + j)] = 1.0 / in[j];
   }
   const auto m = static_cast<std::size_t>(nf - ns);
@@ -327,7 +343,8 @@ PathVector Factor::forward_path(std::span<const std::pair<int, std::array<double
   const Dissection& d = *dissection_;
   PathVector path;
   for (const auto& [position, force] : load) {
-    for (int n = d.node_of[static_cast<std::size_t>(position)]; n >= 0; n = d.nodes[static_cast<std::size_t>(n)].parent) {
+    for (int n = d.node_of[static_cast<std::size_t>(position)]; n >= 0;
+         n = d.nodes[static_cast<std::size_t>(n)].parent) {
       path.nodes.push_back(n);
     }
   }

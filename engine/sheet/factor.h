@@ -44,27 +44,27 @@ class Dissection {
   explicit Dissection(const Lattice& lattice, int leaf_particles = 12);
 
   struct Node {
-    int begin = 0, end = 0;           ///< positions (particles, in elimination order) eliminated here
+    int begin = 0, end = 0;  ///< positions (particles, in elimination order) eliminated here
     int parent = -1;
     int child[2] = {-1, -1};
-    int first = 0;                    ///< first node of the subtree; the subtree is [first, itself]
-    std::vector<int> boundary;        ///< positions coupled to the subtree from outside, ascending
-    std::vector<int> place_in_parent; ///< row (in particles) of each boundary entry in the parent's front
+    int first = 0;                     ///< first node of the subtree; the subtree is [first, itself]
+    std::vector<int> boundary;         ///< positions coupled to the subtree from outside, ascending
+    std::vector<int> place_in_parent;  ///< row (in particles) of each boundary entry in the parent's front
     struct Entry {
-      int coupling;                   ///< index into BlockMatrix::coupling
-      int row, column;                ///< in particles, within the front
+      int coupling;     ///< index into BlockMatrix::coupling
+      int row, column;  ///< in particles, within the front
     };
     std::vector<Entry> entries;
     [[nodiscard]] int own() const { return end - begin; }
     [[nodiscard]] int front() const { return own() + static_cast<int>(boundary.size()); }
   };
   Lattice lattice;
-  std::vector<Node> nodes;            ///< children before parents; the last is the root
-  std::vector<int> order;             ///< particle at each position
-  std::vector<int> position;          ///< position of each particle
-  std::vector<int> node_of;           ///< node that eliminates each position
+  std::vector<Node> nodes;                               ///< children before parents; the last is the root
+  std::vector<int> order;                                ///< particle at each position
+  std::vector<int> position;                             ///< position of each particle
+  std::vector<int> node_of;                              ///< node that eliminates each position
   std::vector<std::size_t> panel_offset, update_offset;  ///< of each node; one more entry than nodes
-  std::vector<int> leading;           ///< leading dimension of each panel
+  std::vector<int> leading;                              ///< leading dimension of each panel
 
  private:
   int divide(int c0, int c1, int r0, int r1, int leaf);
@@ -73,8 +73,8 @@ class Dissection {
 
 /// The entries of L^-1 b for a load b on few particles: nonzero on the path from their nodes to the root.
 struct PathVector {
-  std::vector<int> nodes;        ///< ascending
-  std::vector<double> values;    ///< of each node's positions, x and y, one node after the other
+  std::vector<int> nodes;      ///< ascending
+  std::vector<double> values;  ///< of each node's positions, x and y, one node after the other
 };
 
 /// The numeric factor. Panels are kept in single precision (they precondition; the residual is judged in double), sums
@@ -107,8 +107,8 @@ class Factor {
   const Dissection* dissection_;
   int threads_;
   std::vector<float> panels_;
-  std::vector<double> inverse_;   // 1 / L_jj
-  std::vector<double> updates_;   // what a node hands to its parent in a forward sweep
+  std::vector<double> inverse_;  // 1 / L_jj
+  std::vector<double> updates_;  // what a node hands to its parent in a forward sweep
 };
 
 }  // namespace dem::sheet

@@ -13,7 +13,9 @@ double dot_paths(const PathVector& a, const PathVector& b, const Dissection& d) 
   std::size_t i = 0, j = 0, at = 0, bt = 0;
   double total = 0;
   while (i < a.nodes.size() && j < b.nodes.size()) {
-    const auto length = [&](int node) { return 2 * static_cast<std::size_t>(d.nodes[static_cast<std::size_t>(node)].own()); };
+    const auto length = [&](int node) {
+      return 2 * static_cast<std::size_t>(d.nodes[static_cast<std::size_t>(node)].own());
+    };
     if (a.nodes[i] == b.nodes[j]) {
       const auto n = length(a.nodes[i]);
       total += dot(a.values.data() + at, b.values.data() + bt, n);
@@ -42,7 +44,8 @@ double ModifiedFactor::change(double c, int i, int j, std::array<double, 2> n, s
   double sign = 1;
   for (const int p : {i, j}) {
     const auto held = fixed[static_cast<std::size_t>(p)];
-    load.push_back({d.position[static_cast<std::size_t>(p)], {(held & 1) ? 0 : sign * n[0], (held & 2) ? 0 : sign * n[1]}});
+    load.push_back(
+        {d.position[static_cast<std::size_t>(p)], {(held & 1) ? 0 : sign * n[0], (held & 2) ? 0 : sign * n[1]}});
     sign = -1;
   }
   PathVector y = factor_.forward_path(load);

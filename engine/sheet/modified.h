@@ -30,9 +30,9 @@ class ModifiedFactor {
   void correct(std::span<double> y) const;
 
   Factor factor_;
-  std::vector<PathVector> paths_;              // Y = L^-1 B
-  std::vector<std::vector<double>> lower_;     // rows of the unit lower factor of S = C^-1 + Y^T Y = L D L^T
-  std::vector<double> pivots_;                 // D
+  std::vector<PathVector> paths_;           // Y = L^-1 B
+  std::vector<std::vector<double>> lower_;  // rows of the unit lower factor of S = C^-1 + Y^T Y = L D L^T
+  std::vector<double> pivots_;              // D
   std::vector<std::uint8_t> active_;
 };
 

@@ -100,7 +100,8 @@ void Patches::relax(Sheet& sheet, Forces& forces, const PatchBox& box, double sm
   Local& local = *entry;
   const int n = lattice.particles();
   const auto global = [&](int i) {
-    return static_cast<std::size_t>((box.r0 + i / lattice.columns) * sheet.lattice.columns + box.c0 + i % lattice.columns);
+    return static_cast<std::size_t>((box.r0 + i / lattice.columns) * sheet.lattice.columns + box.c0 +
+                                    i % lattice.columns);
   };
   const auto largest = [&] {
     double most = 0;

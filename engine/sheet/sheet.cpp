@@ -112,7 +112,8 @@ void compute_forces(const Sheet& s, Forces& f, int threads) {
   std::vector<int> worst(static_cast<std::size_t>(bands), -1);
 #pragma omp parallel num_threads(threads)
   {
-    std::vector<double> buffer(12 * static_cast<std::size_t>(columns), 0.0), scrap(2 * static_cast<std::size_t>(columns));
+    std::vector<double> buffer(12 * static_cast<std::size_t>(columns), 0.0),
+        scrap(2 * static_cast<std::size_t>(columns));
 #pragma omp for schedule(static)
     for (int b = 0; b < bands; ++b) {
       double most = 0, open = 0;
@@ -127,10 +128,15 @@ void compute_forces(const Sheet& s, Forces& f, int threads) {
           const RowLine line = row_line(s.lattice, r, d);
           const auto base = static_cast<std::size_t>(d) * n + start;
           double* fx = buffer.data() + here + static_cast<std::size_t>(2 * d) * static_cast<std::size_t>(columns);
-          const SpringLine springs{s.x.data() + start, s.y.data() + start, s.radius.data() + start,
-                                   s.stiffness.data() + base, s.joined.data() + base,
+          const SpringLine springs{s.x.data() + start,
+                                   s.y.data() + start,
+                                   s.radius.data() + start,
+                                   s.stiffness.data() + base,
+                                   s.joined.data() + base,
                                    outside ? scrap.data() : f.tension.data() + base,
-                                   outside ? scrap.data() + columns : f.length.data() + base, fx, fx + columns};
+                                   outside ? scrap.data() + columns : f.length.data() + base,
+                                   fx,
+                                   fx + columns};
           const int row_start = r * columns;
           const double top = spring_line(springs, line.begin - row_start, line.end - row_start, line.offset);
           most = std::max(most, top);
@@ -138,10 +144,12 @@ void compute_forces(const Sheet& s, Forces& f, int threads) {
         if (outside) continue;
         const bool shifted = s.lattice.shifted(r);
         const auto own = [&](int d, int c) {
-          return buffer[here + static_cast<std::size_t>(d) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(c)];
+          return buffer[here + static_cast<std::size_t>(d) * static_cast<std::size_t>(columns) +
+                        static_cast<std::size_t>(c)];
         };
         const auto lower = [&](int d, int c) {
-          return buffer[below + static_cast<std::size_t>(d) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(c)];
+          return buffer[below + static_cast<std::size_t>(d) * static_cast<std::size_t>(columns) +
+                        static_cast<std::size_t>(c)];
         };
         for (int c = 0; c < columns; ++c) {
           const int sw = shifted ? c : c - 1, se = shifted ? c + 1 : c;

@@ -17,16 +17,16 @@ namespace dem::sheet {
 /// 2 north-west of particle i. Slots without a neighbour have no stiffness.
 struct Sheet {
   Lattice lattice;
-  double radius0 = 0;                    ///< 0.5 / columns; row spacing sqrt(3) radius0
-  double width = 0, height = 0;          ///< undeformed distance between opposite walls' outer faces
-  std::vector<double> x, y;              ///< centres
+  double radius0 = 0;            ///< 0.5 / columns; row spacing sqrt(3) radius0
+  double width = 0, height = 0;  ///< undeformed distance between opposite walls' outer faces
+  std::vector<double> x, y;      ///< centres
   std::vector<double> radius;
-  std::vector<std::uint8_t> fixed;       ///< bit 0: x held by a side wall, bit 1: y held by the bottom or top wall
-  std::vector<std::int32_t> grain;       ///< of each particle
-  std::vector<double> stiffness;         ///< k of each slot; 0: no neighbour
-  std::vector<double> threshold;         ///< breaking stress of each slot, k (d - l)/l at failure; infinite: never
-  std::vector<std::uint8_t> joined;      ///< 1: spring whole
-  std::vector<std::uint8_t> between;     ///< 1: spring between two grains
+  std::vector<std::uint8_t> fixed;    ///< bit 0: x held by a side wall, bit 1: y held by the bottom or top wall
+  std::vector<std::int32_t> grain;    ///< of each particle
+  std::vector<double> stiffness;      ///< k of each slot; 0: no neighbour
+  std::vector<double> threshold;      ///< breaking stress of each slot, k (d - l)/l at failure; infinite: never
+  std::vector<std::uint8_t> joined;   ///< 1: spring whole
+  std::vector<std::uint8_t> between;  ///< 1: spring between two grains
 
   [[nodiscard]] int particles() const { return lattice.particles(); }
   [[nodiscard]] int slots() const { return 3 * lattice.particles(); }
@@ -44,12 +44,12 @@ bool along_wall(const Sheet& sheet, int slot);
 
 /// Forces of a state. `tension` is kept for every slot.
 struct Forces {
-  std::vector<double> x, y;          ///< sum of spring forces on each particle, wall reactions not included
-  std::vector<double> tension;       ///< of each slot, positive in tension
-  std::vector<double> length;        ///< of each slot, distance of centres
-  double largest = 0;                ///< largest spring force
-  double unbalanced = 0;             ///< largest force component on a particle along a free direction
-  int worst = -1;                    ///< particle where `unbalanced` is found
+  std::vector<double> x, y;     ///< sum of spring forces on each particle, wall reactions not included
+  std::vector<double> tension;  ///< of each slot, positive in tension
+  std::vector<double> length;   ///< of each slot, distance of centres
+  double largest = 0;           ///< largest spring force
+  double unbalanced = 0;        ///< largest force component on a particle along a free direction
+  int worst = -1;               ///< particle where `unbalanced` is found
 };
 
 /// Computes forces with fixed summation order: the same bits for any number of threads.
@@ -62,8 +62,8 @@ double elastic_energy(const Sheet& sheet, const Forces& forces);
 /// largest are taken as tied, and the lowest slot is chosen: the order does not hang on rounding.
 struct Critical {
   int slot = -1;
-  double ratio = 0;   ///< 1 or more: fails
-  double next = 0;    ///< the next ratio, for how near the decision was
+  double ratio = 0;  ///< 1 or more: fails
+  double next = 0;   ///< the next ratio, for how near the decision was
 };
 Critical most_critical(const Sheet& sheet, const Forces& forces, int threads);
 

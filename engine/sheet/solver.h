@@ -14,14 +14,15 @@ namespace dem::sheet {
 
 /// How one relaxation went.
 struct Relaxation {
-  bool reached = false;      ///< the solver's own criterion was met
-  double unbalanced = 0;     ///< largest unbalanced force over the largest spring force, at the end
-  int iterations = 0;        ///< global solves (converged) or sweeps (as_published)
+  bool reached = false;   ///< the solver's own criterion was met
+  double unbalanced = 0;  ///< largest unbalanced force over the largest spring force, at the end
+  int iterations = 0;     ///< global solves (converged) or sweeps (as_published)
 };
 
 /// What a solver did since it was made.
 struct SolverWork {
-  std::int64_t relaxations = 0, solves = 0, patches = 0, factorisations = 0, changes = 0, searches = 0, raised_pivots = 0;
+  std::int64_t relaxations = 0, solves = 0, patches = 0, factorisations = 0, changes = 0, searches = 0,
+               raised_pivots = 0;
 };
 
 class Solver {
@@ -34,15 +35,15 @@ class Solver {
 };
 
 struct ConvergedSettings {
-  double tolerance = 1e-8;      ///< largest unbalanced force over the largest spring force
-  int most_solves = 400;        ///< in one relaxation, before it is given up
-  bool refactor_always = false; ///< a plain reference: a new factor for every step of every relaxation
+  double tolerance = 1e-8;       ///< largest unbalanced force over the largest spring force
+  int most_solves = 400;         ///< in one relaxation, before it is given up
+  bool refactor_always = false;  ///< a plain reference: a new factor for every step of every relaxation
   int threads = 1;
 };
 
 /// All that the next result of a converged solver hangs on besides the sheet: for checkpoints.
 struct ConvergedState {
-  std::vector<double> x, y, radius;     ///< sheet at the last factorisation
+  std::vector<double> x, y, radius;  ///< sheet at the last factorisation
   std::vector<std::uint8_t> joined;
   struct Change {
     double coefficient;
@@ -50,8 +51,8 @@ struct ConvergedState {
     double nx, ny;
     bool active;
   };
-  std::vector<Change> changes;          ///< since then, in order
-  std::int64_t extra_solves = 0;        ///< counted towards the next factorisation
+  std::vector<Change> changes;    ///< since then, in order
+  std::int64_t extra_solves = 0;  ///< counted towards the next factorisation
 };
 
 class ConvergedSolver final : public Solver {
@@ -69,8 +70,8 @@ class ConvergedSolver final : public Solver {
 };
 
 struct PublishedSettings {
-  double relaxation = 0.9;    ///< share of (sum F)/(sum k) that a particle moves
-  double stop = 1.4e-7;       ///< largest move that counts as equilibrium, in box widths
+  double relaxation = 0.9;  ///< share of (sum F)/(sum k) that a particle moves
+  double stop = 1.4e-7;     ///< largest move that counts as equilibrium, in box widths
   int most_sweeps = 1000000;
 };
 

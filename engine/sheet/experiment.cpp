@@ -1,0 +1,168 @@
+#include "engine/sheet/experiment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace dem::sheet {
+
+Experiment::Experiment(Sheet& sheet, Solver& solver, Loading loading, int threads)
+    : sheet_(&sheet),
+      solver_(&solver),
+      loading_(std::move(loading)),
+      threads_(threads),
+      start_x_(sheet.x),
+      start_y_(sheet.y) {
+  compute_forces(*sheet_, forces_, threads_);
+}
+
+void Experiment::relaxed(const Relaxation& r) {
+  auto& e = state_.equilibrium;
+  ++e.relaxations;
+  e.worst = std::max(e.worst, r.unbalanced);
+  if (!r.reached) ++e.missed;
+}
+
+// One substep: `share` of the load step. Shares are equal and compose to the step's strain exactly enough: the strain
+// of a step is small, and the strain reported is the one applied.
+void Experiment::apply(double share) {
+  Sheet& s = *sheet_;
+  const auto n = static_cast<std::size_t>(s.particles());
+  const std::vector<double> fx = forces_.x, fy = forces_.y, x = s.x, y = s.y, tension = forces_.tension,
+                            radius = s.radius;
+  if (loading_.kind == LoadingKind::growth) {
+    for (std::size_t i = 0; i < n; ++i) {
+      if (loading_.grows[i]) s.radius[i] *= 1 + share * loading_.step;
+    }
+  } else {
+    const double e = share * loading_.step;
+    const double sx = loading_.kind == LoadingKind::extension     ? 1 + e
+                      : loading_.kind == LoadingKind::compression ? 1 - e
+                                                                  : 1 / (1 - e);
+    const double sy = loading_.kind == LoadingKind::pure_shear ? 1 - e : 1.0;
+    const double cx = 0.5, cy = 0.5 * (start_y_.front() + start_y_.back());
+    for (std::size_t i = 0; i < n; ++i) {
+      s.x[i] = cx + (s.x[i] - cx) * sx;
+      s.y[i] = cy + (s.y[i] - cy) * sy;
+    }
+  }
+  relaxed(solver_->relax(s, forces_, {}));
+  double boundary = 0, growth = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (s.fixed[i] & 1) boundary -= 0.5 * (fx[i] + forces_.x[i]) * (s.x[i] - x[i]);
+    if (s.fixed[i] & 2) boundary -= 0.5 * (fy[i] + forces_.y[i]) * (s.y[i] - y[i]);
+  }
+  if (loading_.kind == LoadingKind::growth) {
+    for (int slot = 0; slot < s.slots(); ++slot) {
+      const auto k = static_cast<std::size_t>(slot);
+      if (s.stiffness[k] <= 0) continue;
+      const auto i = static_cast<std::size_t>(s.first(slot)), j = static_cast<std::size_t>(s.second(slot));
+      const double dr = (s.radius[i] - radius[i]) + (s.radius[j] - radius[j]);
+      if (dr != 0) growth -= 0.5 * (tension[k] + forces_.tension[k]) * dr;
+    }
+  }
+  state_.boundary_work += boundary;
+  state_.growth_work += growth;
+}
+
+void Experiment::load_step() {
+  ++state_.step;
+  const int parts = state_.breaks.empty() ? 1 : std::max(1, loading_.substeps);
+  for (int k = 0; k < parts; ++k) apply(1.0 / parts);
+  state_.energy_loaded = elastic_energy(*sheet_, forces_);
+  const WallStress wall = wall_stress(*sheet_, forces_);
+  state_.peak_xx = wall.xx;
+  state_.peak_yy = wall.yy;
+  state_.breaking = true;
+}
+
+bool Experiment::break_one() {
+  Sheet& s = *sheet_;
+  if (static_cast<int>(state_.breaks.size()) >= loading_.most_breaks) return false;
+  const Critical critical = most_critical(s, forces_, threads_);
+  if (critical.slot < 0 || critical.ratio < 1) return false;
+  const auto i = static_cast<std::size_t>(s.first(critical.slot)),
+             j = static_cast<std::size_t>(s.second(critical.slot));
+  Break b;
+  b.slot = critical.slot;
+  b.step = state_.step;
+  b.x = 0.5 * (start_x_[i] + start_x_[j]);
+  b.y = 0.5 * (start_y_[i] + start_y_[j]);
+  const double across = std::atan2(s.y[j] - s.y[i], s.x[j] - s.x[i]) + 0.5 * std::numbers::pi;
+  b.angle = across - std::numbers::pi * std::floor(across / std::numbers::pi);
+  b.ratio = critical.ratio;
+  b.margin = (critical.ratio - critical.next) / critical.ratio;
+  s.joined[static_cast<std::size_t>(critical.slot)] = 0;
+  state_.breaks.push_back(b);
+  const int broken[1] = {critical.slot};
+  relaxed(solver_->relax(s, forces_, broken));
+  return true;
+}
+
+void Experiment::close_step() {
+  state_.breaking = false;
+  const double elastic = elastic_energy(*sheet_, forces_);
+  state_.released += state_.energy_loaded - elastic;
+  const WallStress wall = wall_stress(*sheet_, forces_);
+  Sample sample;
+  sample.step = state_.step;
+  sample.strain = strain();
+  sample.stress_xx = wall.xx;
+  sample.stress_yy = wall.yy;
+  sample.peak_xx = state_.peak_xx;
+  sample.peak_yy = state_.peak_yy;
+  sample.elastic = elastic;
+  sample.released = state_.released;
+  sample.boundary_work = state_.boundary_work;
+  sample.growth_work = state_.growth_work;
+  sample.breaks = static_cast<int>(state_.breaks.size());
+  sample.iterations = static_cast<int>(solver_->work().solves);
+  state_.samples.push_back(sample);
+  state_.peak_stress = std::max(state_.peak_stress, std::fabs(state_.peak_xx - state_.peak_yy));
+  const double now = std::fabs(wall.xx - wall.yy);
+  const bool failed = loading_.stop_share > 0 && now < loading_.stop_share * state_.peak_stress;
+  state_.finished = state_.step >= loading_.steps || failed || sample.breaks >= loading_.most_breaks;
+}
+
+bool Experiment::advance() {
+  if (state_.finished) return false;
+  if (!state_.breaking) {
+    load_step();
+  } else if (!break_one()) {
+    close_step();
+  }
+  return !state_.finished;
+}
+
+void Experiment::run(const std::function<bool(const Experiment&)>& between) {
+  while (advance()) {
+    if (between && !between(*this)) return;
+  }
+}
+
+double Experiment::energy_residual() const {
+  if (state_.samples.empty()) return 0;
+  const Sample& last = state_.samples.back();
+  const double work = last.boundary_work + last.growth_work;
+  return work == 0 ? 0 : std::fabs(work - last.elastic - last.released) / std::fabs(work);
+}
+
+ExperimentState Experiment::snapshot() const {
+  ExperimentState copy = state_;
+  copy.x = sheet_->x;
+  copy.y = sheet_->y;
+  copy.radius = sheet_->radius;
+  copy.joined = sheet_->joined;
+  return copy;
+}
+
+void Experiment::restore(const ExperimentState& state) {
+  state_ = state;
+  sheet_->x = state.x;
+  sheet_->y = state.y;
+  sheet_->radius = state.radius;
+  sheet_->joined = state.joined;
+  compute_forces(*sheet_, forces_, threads_);
+}
+
+}  // namespace dem::sheet

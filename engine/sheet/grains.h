@@ -1,0 +1,58 @@
+#pragma once
+// Grains of a sheet: maps grown here, the grain of each particle, and the disorder of springs that follows from both.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/sheet/elle.h"
+#include "engine/sheet/sheet.h"
+
+namespace dem::sheet {
+
+struct VoronoiSettings {
+  int grains = 30;
+  int lloyd = 2;         ///< steps that move each centre to the centre of its cell
+  bool periodic = true;  ///< else the cells are cut at the box
+  double height = 1;     ///< of the box, in box widths
+  std::uint64_t seed = 1;
+};
+
+/// A Voronoi map of random centres, as an Elle map with shared nodes.
+ElleMap voronoi_map(const VoronoiSettings& settings);
+/// Horizontal bands: matrix below, layer, matrix above (flynns 0, 1, 2; MINERAL MATRIX and LAYER).
+ElleMap layered_map(double height, double layer_low, double layer_high);
+/// Marks `count` grains away from the box's edge, drawn at random, as expanding (EXPAND 1, MINERAL `mineral`).
+void mark_expanding(ElleMap& map, int count, const std::string& mineral, std::uint64_t seed);
+
+/// Which flynn holds each particle. The sheet's box is laid over the cell, width on width.
+struct Cover {
+  std::vector<std::int32_t> flynn;  ///< index into ElleMap::flynns
+  int holes = 0;                    ///< particles in no flynn; they take the grain of their nearest covered neighbour
+  int overlaps = 0;                 ///< particles in more than one; they keep the first
+  double area_share = 0;            ///< area of all flynns over the cell's
+};
+/// Throws InputError when the map covers less than half of the sheet.
+Cover cover(const ElleMap& map, const Sheet& sheet);
+
+/// What a grain is made of, relative to the sheet's standard.
+struct GrainProperties {
+  double stiffness = 1;  ///< factor on the drawn elastic constant
+  double strength = 1;   ///< factor on breaking thresholds
+  double growth = 1;     ///< radius ratio of one step of growth
+};
+
+struct DisorderSettings {
+  double stiffness = 1;          ///< mean elastic constant
+  double stiffness_sd = 0.25;    ///< standard deviation over grains, as a share of the mean
+  double strength = 0.006;       ///< mean breaking stress inside grains
+  double strength_spread = 0.6;  ///< thresholds are uniform in strength (1 - spread ... 1 + spread)
+  double boundary = 0.5;         ///< factor on thresholds between grains
+};
+
+/// Draws one elastic constant a grain (Gauss; draws below a fifth of the mean are drawn again) and one threshold a
+/// spring (uniform), each from its own stream. Springs between grains have the mean constant and the boundary's
+/// threshold; springs along walls never break. Keeps the weights that make_sheet gave to springs along walls.
+void apply_disorder(Sheet& sheet, const Cover& cover, const std::vector<GrainProperties>& grains,
+                    const DisorderSettings& settings, std::uint64_t seed);
+
+}  // namespace dem::sheet

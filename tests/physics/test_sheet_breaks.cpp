@@ -1,0 +1,147 @@
+// The converged solver against a plain Newton reference, and what must hold after every break.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "engine/sheet/experiment.h"
+#include "sheet_reference.h"
+
+namespace {
+
+using namespace dem::sheet;
+
+Loading shear(int breaks) {
+  Loading loading;
+  loading.steps = 40;
+  loading.most_breaks = breaks;
+  loading.substeps = 1;
+  return loading;
+}
+
+std::vector<int> order(const ExperimentState& state) {
+  std::vector<int> slots;
+  for (const auto& b : state.breaks) slots.push_back(b.slot);
+  return slots;
+}
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) { return a == b; }
+
+}  // namespace
+
+TEST_CASE("500 springs break in the order of exact Newton with a new factor for every step") {
+  const Sheet start = reference::polycrystal(50);
+  const auto expected = reference::run(start, 500);
+  CHECK(expected.worst <= 1e-8);
+  CHECK(expected.contacts > 0);  // broken pairs in contact are part of the comparison
+  Sheet sheet = start;
+  ConvergedSolver solver(sheet, {});
+  Experiment experiment(sheet, solver, shear(500), 1);
+  experiment.run();
+  const auto got = order(experiment.state());
+  REQUIRE(got.size() == expected.slots.size());
+  for (std::size_t b = 0; b < got.size(); ++b) {
+    CAPTURE(b);
+    REQUIRE(got[b] == expected.slots[b]);
+    REQUIRE(experiment.state().breaks[b].step == expected.steps[b]);
+  }
+  CHECK(experiment.state().equilibrium.missed == 0);
+  CHECK(experiment.state().equilibrium.worst <= 1e-8);
+}
+
+TEST_CASE("energy is accounted for through failure: work = elastic + released") {
+  for (const auto kind : {LoadingKind::pure_shear, LoadingKind::extension, LoadingKind::growth}) {
+    Sheet sheet = reference::polycrystal(40);
+    ConvergedSolver solver(sheet, {});
+    Loading loading = shear(1 << 30);
+    loading.kind = kind;
+    loading.steps = 10;
+    loading.substeps = 4;
+    loading.grows.assign(sheet.x.size(), 0);
+    for (std::size_t i = 0; i < sheet.x.size(); ++i) loading.grows[i] = sheet.grain[i] % 6 == 0 ? 1 : 0;
+    Experiment experiment(sheet, solver, loading, 1);
+    experiment.run();
+    const auto& last = experiment.state().samples.back();
+    CAPTURE(static_cast<int>(kind));
+    CAPTURE(last.breaks);
+    CHECK(last.breaks > 30);
+    CHECK(last.released > 0);
+    CHECK(experiment.energy_residual() <= 1e-4);
+    MESSAGE("breaks " << last.breaks << ", energy residual " << experiment.energy_residual());
+  }
+}
+
+TEST_CASE("one or three threads give the same bits") {
+  std::vector<double> x[2];
+  std::vector<int> slots[2];
+  for (const int threads : {1, 3}) {
+    Sheet sheet = reference::polycrystal(60);
+    ConvergedSettings settings;
+    settings.threads = threads;
+    ConvergedSolver solver(sheet, settings);
+    Experiment experiment(sheet, solver, shear(60), threads);
+    experiment.run();
+    x[threads / 2] = sheet.x;
+    slots[threads / 2] = order(experiment.state());
+  }
+  CHECK(same_bits(x[0], x[1]));
+  CHECK(slots[0] == slots[1]);
+}
+
+TEST_CASE("a run that is cut between two breaks and taken up again gives the same bits") {
+  const Sheet start = reference::polycrystal(40);
+  Sheet whole = start;
+  ConvergedSolver one(whole, {});
+  Experiment straight(whole, one, shear(120), 1);
+  straight.run();
+
+  Sheet first = start;
+  ConvergedSolver before(first, {});
+  Experiment cut(first, before, shear(120), 1);
+  cut.run([](const Experiment& e) { return e.state().breaks.size() < 47; });
+  const ExperimentState kept = cut.snapshot();
+  const ConvergedState factor = before.state();
+
+  Sheet second = start;
+  ConvergedSolver after(second, {});
+  Experiment resumed(second, after, shear(120), 1);
+  resumed.restore(kept);
+  after.restore(second, factor);
+  resumed.run();
+  CHECK(order(resumed.state()) == order(straight.state()));
+  CHECK(same_bits(second.x, whole.x));
+  CHECK(same_bits(second.y, whole.y));
+  CHECK(resumed.energy_residual() == straight.energy_residual());
+}
+
+TEST_CASE("wide strength distributions break earlier, and less is broken at once, than narrow ones") {
+  double onset[2];
+  int burst[2];  // most breaks in one load step
+  for (const int wide : {0, 1}) {
+    Sheet sheet = reference::polycrystal(40, 1, wide ? 0.95 : 0.2);
+    ConvergedSolver solver(sheet, {});
+    Loading loading = shear(200);
+    loading.step = 0.00025;
+    Experiment experiment(sheet, solver, loading, 1);
+    experiment.run();
+    const auto& breaks = experiment.state().breaks;
+    onset[wide] = breaks.front().step * loading.step;
+    std::vector<int> per_step(200, 0);
+    for (const auto& b : breaks) ++per_step[static_cast<std::size_t>(b.step)];
+    burst[wide] = *std::max_element(per_step.begin(), per_step.end());
+  }
+  CHECK(onset[1] < 0.6 * onset[0]);
+  CHECK(burst[1] < 0.6 * burst[0]);
+  MESSAGE("first break at strain " << onset[0] << " (narrow), " << onset[1] << " (wide); most breaks in one step "
+                                   << burst[0] << ", " << burst[1]);
+}
+
+TEST_CASE("the historical sweep stops where its rule says, far from equilibrium") {
+  Sheet sheet = reference::polycrystal(50);
+  PublishedSolver solver({}, 1);
+  Experiment experiment(sheet, solver, shear(30), 1);
+  experiment.run();
+  CHECK(experiment.state().equilibrium.missed == 0);
+  CHECK(experiment.state().equilibrium.worst > 1e-6);  // its own rule is met, force balance is not
+  CHECK(experiment.state().breaks.size() == 30);
+}

@@ -1,0 +1,102 @@
+// The uncracked sheet: elastic constants, patches of homogeneous strain, the growing disc.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/sheet/experiment.h"
+
+namespace {
+
+using namespace dem::sheet;
+
+double largest_strain(const Sheet& s, const Forces& f) {
+  double most = 0;
+  for (int slot = 0; slot < s.slots(); ++slot) {
+    const auto k = static_cast<std::size_t>(slot);
+    if (s.stiffness[k] <= 0) continue;
+    most = std::max(most, f.tension[k] / s.stiffness[k] / (f.length[k] - f.tension[k] / s.stiffness[k]));
+  }
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("E = 2k/sqrt(3) and nu = 1/3 from uniaxial strain and pure shear, with half-weight wall springs") {
+  const double k = 1.7, e = 1e-7;
+  const double young = 2 * k / std::numbers::sqrt3, nu = 1.0 / 3;
+  for (const auto kind : {LoadingKind::extension, LoadingKind::pure_shear}) {
+    Sheet sheet = make_sheet(24, 28, 0.5);
+    for (double& stiffness : sheet.stiffness) stiffness *= k;
+    ConvergedSolver solver(sheet, {});
+    Loading loading;
+    loading.kind = kind;
+    loading.step = e;
+    loading.steps = 1;
+    Experiment experiment(sheet, solver, loading, 1);
+    experiment.run();
+    const auto& s = experiment.state().samples.front();
+    // Plane stress: sigma = E / (1 - nu^2) (eps + nu eps_other)
+    const double c = young / (1 - nu * nu);
+    const double ex = e, ey = kind == LoadingKind::pure_shear ? -e : 0.0;
+    CHECK(s.stress_xx == doctest::Approx(c * (ex + nu * ey)).epsilon(1e-6));
+    CHECK(s.stress_yy == doctest::Approx(c * (ey + nu * ex)).epsilon(1e-6));
+    if (kind == LoadingKind::extension) {
+      const double ratio = s.stress_yy / s.stress_xx;
+      CHECK(ratio == doctest::Approx(nu).epsilon(1e-6));
+      CHECK(s.stress_xx / e * (1 - ratio * ratio) == doctest::Approx(young).epsilon(1e-6));
+    }
+    const double density = s.elastic / (sheet.width * sheet.height);
+    CHECK(density == doctest::Approx(0.5 * (s.stress_xx * ex + s.stress_yy * ey)).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("whole wall springs make the sheet stiffer by about one over the columns") {
+  const auto stress = [](double weight) {
+    Sheet sheet = make_sheet(40, 46, weight);
+    ConvergedSolver solver(sheet, {});
+    Loading loading;
+    loading.kind = LoadingKind::extension;
+    loading.step = 1e-6;
+    loading.steps = 1;
+    Experiment experiment(sheet, solver, loading, 1);
+    experiment.run();
+    return experiment.state().samples.front().stress_xx;
+  };
+  const double excess = stress(1.0) / stress(0.5) - 1;
+  CHECK(excess > 0.2 / 40);
+  CHECK(excess < 2.0 / 40);
+}
+
+TEST_CASE("particles away from walls feel the stress of the walls") {
+  Sheet sheet = make_sheet(30, 34, 0.5);
+  ConvergedSolver solver(sheet, {});
+  Loading loading;
+  loading.step = 1e-6;
+  loading.steps = 1;
+  Experiment experiment(sheet, solver, loading, 1);
+  experiment.run();
+  const Stress stress = particle_stress(sheet, experiment.forces());
+  const WallStress wall = wall_stress(sheet, experiment.forces());
+  const auto middle = static_cast<std::size_t>(17 * 30 + 15);
+  CHECK(stress.xx[middle] == doctest::Approx(wall.xx).epsilon(1e-4));
+  CHECK(stress.yy[middle] == doctest::Approx(wall.yy).epsilon(1e-4));
+  CHECK(std::fabs(stress.xy[middle]) < 1e-6 * std::fabs(wall.xx));
+}
+
+TEST_CASE("a disc that grows by 0.2 % strains the sheet as converged computations say") {
+  const std::pair<int, double> expected[] = {{50, 1.08e-3}, {100, 1.20e-3}, {200, 1.30e-3}};
+  for (const auto& [columns, strain] : expected) {
+    Sheet sheet = make_sheet(columns);
+    for (int i = 0; i < sheet.particles(); ++i) {
+      const auto p = static_cast<std::size_t>(i);
+      if (std::hypot(sheet.x[p] - 0.5, sheet.y[p] - 0.5) < 0.1) sheet.radius[p] *= 1.002;
+    }
+    ConvergedSolver solver(sheet, {});
+    Forces forces;
+    const Relaxation r = solver.relax(sheet, forces, {});
+    CHECK(r.reached);
+    CAPTURE(columns);
+    CHECK(largest_strain(sheet, forces) == doctest::Approx(strain).epsilon(0.01));
+  }
+}

@@ -1,0 +1,149 @@
+// The nested-dissection factor and its low-rank changes against the matrix itself.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "engine/core/random.h"
+#include "engine/sheet/modified.h"
+#include "engine/sheet/stiffness.h"
+
+namespace {
+
+using namespace dem::sheet;
+
+// Largest entry of K u - b, in elimination order, over free directions.
+double residual(const Sheet& s, const Forces& f, const Dissection& d, const std::vector<double>& u,
+                const std::vector<double>& b) {
+  const auto n = s.x.size();
+  std::vector<double> vx(n), vy(n), kx(n), ky(n);
+  for (std::size_t at = 0; at < n; ++at) {
+    const auto i = static_cast<std::size_t>(d.order[at]);
+    vx[i] = u[2 * at], vy[i] = u[2 * at + 1];
+  }
+  apply_tangent(s, f, vx, vy, kx, ky, 1);
+  double most = 0;
+  for (std::size_t at = 0; at < n; ++at) {
+    const auto i = static_cast<std::size_t>(d.order[at]);
+    if (!(s.fixed[i] & 1)) most = std::max(most, std::fabs(kx[i] - b[2 * at]));
+    if (!(s.fixed[i] & 2)) most = std::max(most, std::fabs(ky[i] - b[2 * at + 1]));
+  }
+  return most;
+}
+
+std::vector<double> random_load(const Sheet& s, const Dissection& d) {
+  dem::RandomStream random(3, dem::Purpose::test_data);
+  std::vector<double> b(2 * s.x.size());
+  for (std::size_t at = 0; at < s.x.size(); ++at) {
+    const auto fixed = s.fixed[static_cast<std::size_t>(d.order[at])];
+    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+    b[2 * at] = (fixed & 1) ? 0 : x;
+    b[2 * at + 1] = (fixed & 2) ? 0 : y;
+  }
+  return b;
+}
+
+}  // namespace
+
+TEST_CASE("a dissection orders every particle once, children before parents") {
+  for (const auto& [columns, rows] : {std::pair{1, 1}, {5, 3}, {17, 40}, {64, 9}}) {
+    const Dissection d(Lattice{columns, rows, true});
+    CHECK(d.order.size() == static_cast<std::size_t>(columns * rows));
+    for (std::size_t p = 0; p < d.order.size(); ++p) {
+      CHECK(d.position[static_cast<std::size_t>(d.order[p])] == static_cast<int>(p));
+    }
+    for (std::size_t k = 0; k + 1 < d.nodes.size(); ++k) CHECK(d.nodes[k].parent > static_cast<int>(k));
+  }
+}
+
+TEST_CASE("a solve meets its load to single precision, and a refined one to double") {
+  Sheet s = make_sheet(45, 52);
+  Forces f;
+  compute_forces(s, f, 1);
+  const Dissection d(s.lattice);
+  ModifiedFactor factor(d, 1);
+  CHECK(factor.factorise(assemble(s, f)) == 0);
+  const auto b = random_load(s, d);
+  auto u = b;
+  factor.solve(u);
+  CHECK(residual(s, f, d, u, b) < 1e-5);
+}
+
+TEST_CASE("changes follow broken springs: the changed factor solves the changed matrix") {
+  Sheet s = make_sheet(45, 52);
+  Forces f;
+  compute_forces(s, f, 1);
+  const Dissection d(s.lattice);
+  ModifiedFactor factor(d, 1);
+  factor.factorise(assemble(s, f));
+  dem::RandomStream random(5, dem::Purpose::test_data);
+  for (int k = 0; k < 40; ++k) {
+    const int slot = static_cast<int>(random.below(static_cast<std::uint64_t>(s.slots())));
+    const auto at = static_cast<std::size_t>(slot);
+    if (!s.joined[at]) continue;
+    s.joined[at] = 0;
+    const auto i = static_cast<std::size_t>(s.first(slot)), j = static_cast<std::size_t>(s.second(slot));
+    const double c = factor.change(-s.stiffness[at], static_cast<int>(i), static_cast<int>(j),
+                                   {(s.x[j] - s.x[i]) / f.length[at], (s.y[j] - s.y[i]) / f.length[at]}, s.fixed);
+    CHECK(c == -s.stiffness[at]);
+    compute_forces(s, f, 1);
+    // At rest a broken pair neither pulls nor presses: its tension is exactly or nearly nothing.
+    f.tension[at] = 0;
+  }
+  const auto b = random_load(s, d);
+  auto u = b;
+  factor.solve(u);
+  for (int slot = 0; slot < s.slots(); ++slot) {
+    if (!s.joined[static_cast<std::size_t>(slot)]) f.tension[static_cast<std::size_t>(slot)] = 0;
+  }
+  CHECK(factor.changes() > 30);
+  CHECK(residual(s, f, d, u, b) < 1e-4);
+}
+
+TEST_CASE("cutting a particle loose leaves a factor that still solves") {
+  Sheet s = make_sheet(20, 22);
+  Forces f;
+  compute_forces(s, f, 1);
+  const Dissection d(s.lattice);
+  ModifiedFactor factor(d, 1);
+  factor.factorise(assemble(s, f));
+  const int particle = 11 * 20 + 10;
+  bool weakened = false;
+  for (int direction = 0; direction < 6; ++direction) {
+    const int other = s.lattice.neighbour(particle, direction);
+    const int slot = direction < 3 ? direction * s.particles() + particle : (direction - 3) * s.particles() + other;
+    const auto at = static_cast<std::size_t>(slot);
+    const auto i = static_cast<std::size_t>(s.first(slot)), j = static_cast<std::size_t>(s.second(slot));
+    s.joined[at] = 0;
+    const double c = factor.change(-1, static_cast<int>(i), static_cast<int>(j),
+                                   {(s.x[j] - s.x[i]) / f.length[at], (s.y[j] - s.y[i]) / f.length[at]}, s.fixed);
+    weakened = weakened || c != -1;
+  }
+  CHECK(weakened);  // the last springs hold it alone: they may not vanish from the factor
+  std::vector<double> u(2 * s.x.size(), 0.0);
+  u[2 * static_cast<std::size_t>(d.position[static_cast<std::size_t>(particle)])] = 1;
+  factor.solve(u);
+  for (const double v : u) CHECK(std::isfinite(v));
+}
+
+TEST_CASE("partial Cholesky raises pivots that have lost their stiffness") {
+  double a[16] = {};
+  a[0] = 2, a[1] = -2, a[5] = 2, a[10] = 1, a[15] = 1;  // two pairs, the first without stiffness against the second
+  const double diagonal[4] = {2, 2, 1, 1};
+  CHECK(partial_cholesky(a, 4, 4, 4, diagonal, {}) == 1);
+  CHECK(a[5] == doctest::Approx(std::sqrt(2e-3)));
+}
+
+TEST_CASE("one or several threads give the same factor") {
+  Sheet s = make_sheet(120, 130);
+  Forces f;
+  compute_forces(s, f, 1);
+  const Dissection d(s.lattice);
+  const auto b = random_load(s, d);
+  std::vector<double> one = b, three = b;
+  ModifiedFactor first(d, 1), second(d, 3);
+  first.factorise(assemble(s, f));
+  second.factorise(assemble(s, f));
+  first.solve(one);
+  second.solve(three);
+  CHECK(one == three);
+}
