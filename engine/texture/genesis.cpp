@@ -11,7 +11,7 @@ namespace dem::texture {
 namespace {
 
 // Raised whenever pack() or seed_grains() give other specimens for the same settings.
-constexpr std::string_view genesis_version = "genesis 1";
+constexpr std::string_view genesis_version = "genesis 2";
 
 std::string content_of(const PackingSettings& s) {
   return fmt::format(

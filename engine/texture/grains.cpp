@@ -13,11 +13,11 @@ namespace {
 
 // The seeds are packed lightly: overlaps near 0.4 % of a radius.
 constexpr double seed_pressure = 1e-3;
-constexpr double seed_unbalance = 1e-4;
 constexpr double first_solid_fraction = 0.62;
-// The number of seeds follows from the solid fraction that their own packing reaches: found in one or two rounds.
-constexpr int seed_rounds = 4;
-constexpr double seed_scale_tolerance = 0.005;
+// The number of seeds follows from the solid fraction that their own packing reaches: found roughly first,
+// then in one round or two.
+constexpr int seed_rounds = 3;
+constexpr double seed_scale_tolerance = 0.01;
 // Few grains of a mineral meet its volume only with diameters somewhat off their range; off by more is refused.
 constexpr double range_tolerance = 0.2;
 
@@ -135,7 +135,10 @@ std::int32_t nearest_grain(const Vec3& at, const GrainSeeds& seeds, const Ellips
 }
 
 /// The grain most frequent among claimed neighbours, the lowest of equally frequent ones; nobody when there is none.
-std::int32_t commonest(std::vector<std::int32_t>& claims) {
+std::int32_t commonest(const std::vector<std::int32_t>& neighbours, const std::vector<std::int32_t>& grain) {
+  std::vector<std::int32_t> claims;
+  for (const std::int32_t j : neighbours)
+    if (grain[j] != nobody) claims.push_back(grain[j]);
   std::sort(claims.begin(), claims.end());
   std::int32_t best = nobody;
   std::ptrdiff_t most = 0;
@@ -146,6 +149,24 @@ std::int32_t commonest(std::vector<std::int32_t>& claims) {
       best = *run;
     }
     run = end;
+  }
+  return best;
+}
+
+/// The grain of the claimed neighbour with the largest overlap; nobody when there is none.
+std::int32_t deepest(std::size_t i, const std::vector<std::int32_t>& neighbours, const Packing& packing,
+                     const std::vector<std::int32_t>& grain) {
+  std::int32_t best = nobody;
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const std::int32_t j : neighbours) {
+    if (grain[j] == nobody) continue;
+    const Vec3 &a = packing.position[i], &b = packing.position[j];
+    const double dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2];
+    const double overlap = packing.radius[i] + packing.radius[j] - std::sqrt(dx * dx + dy * dy + dz * dz);
+    if (overlap > largest || (overlap == largest && grain[j] < best)) {
+      largest = overlap;
+      best = grain[j];
+    }
   }
   return best;
 }
@@ -166,9 +187,14 @@ GrainSeeds seed_grains(const Cylinder& vessel, const std::vector<MineralGrains>&
                        std::uint64_t seed, RunContext& context) {
   SettleGoal goal;
   goal.pressure = seed_pressure;
-  goal.unbalance = seed_unbalance;
   goal.remove_floaters = false;  // a seed without contacts is a seed: taking it out would thin the small grains
-  double solid_fraction = first_solid_fraction;
+  SettleGoal rough = goal;       // enough to learn the solid fraction
+  rough.unbalance = 1e-2;
+  rough.pressure_tolerance = 0.05;
+  const double rough_scale =
+      settle(vessel, draw_seeds(vessel, minerals, seed_scale, first_solid_fraction, seed).spheres, rough, context)
+          .radius_scale;
+  double solid_fraction = first_solid_fraction * rough_scale * rough_scale * rough_scale;
   for (int round = 1;; ++round) {
     const Cloud cloud = draw_seeds(vessel, minerals, seed_scale, solid_fraction, seed);
     const Settled settled = settle(vessel, cloud.spheres, goal, context);
@@ -188,7 +214,7 @@ GrainSeeds seed_grains(const Cylinder& vessel, const std::vector<MineralGrains>&
   }
 }
 
-GrainMap grow_grains(const Packing& packing, const GrainSeeds& seeds, const GrainShape& shape) {
+GrainMap grow_grains(const Packing& packing, const GrainSeeds& seeds, const GrainShape& shape, GrowthRule rule) {
   const EllipsoidMetric metric(shape);
   GrainMap map;
   map.grain = mask(packing, seeds, metric);
@@ -199,17 +225,14 @@ GrainMap grow_grains(const Packing& packing, const GrainSeeds& seeds, const Grai
     if (map.grain[i] == nobody) unclaimed.push_back(i);
 
   // All particles of a round see the grains as they were before it: the order of particles plays no part.
-  std::vector<std::int32_t> claims;
   int round = 0;
   while (!unclaimed.empty()) {
     ++round;
     std::vector<std::pair<std::size_t, std::int32_t>> claimed;
     std::vector<std::size_t> left;
     for (const std::size_t i : unclaimed) {
-      claims.clear();
-      for (const std::int32_t j : touching[i])
-        if (map.grain[j] != nobody) claims.push_back(map.grain[j]);
-      const std::int32_t grain = commonest(claims);
+      const std::int32_t grain = rule == GrowthRule::most_contacts ? commonest(touching[i], map.grain)
+                                                                   : deepest(i, touching[i], packing, map.grain);
       if (grain == nobody)
         left.push_back(i);
       else

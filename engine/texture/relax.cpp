@@ -143,12 +143,11 @@ Pile::Sums Pile::evaluate_block(std::size_t begin, std::size_t end) {
       if (d2 >= reach * reach || d2 == 0) continue;
       const double d = std::sqrt(d2);
       const double r = std::min(s.r, t.r);
-      const double force = pi * r * r * (reach - d) / reach;
-      const double along = force / d;
+      const double along = pi * r * r * (reach - d) / (reach * d);  // F / d
       f.x += along * dx;
       f.y += along * dy;
       f.z += along * dz;
-      sums.contact_force += force;
+      sums.contact_force += along * d;
       ++sums.contacts;
     }
     // Walls: kn = pi R.

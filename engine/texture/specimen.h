@@ -72,8 +72,17 @@ Packing pack(const PackingSettings& settings, RunContext& context);
 GrainSeeds seed_grains(const Cylinder& vessel, const std::vector<MineralGrains>& minerals, double seed_scale,
                        std::uint64_t seed, RunContext& context);
 
+/// Whose grain a particle takes that touches several grains in one round of growth; the paper says only "of the particle
+/// that it touches". Equal claims go to the lower grain index.
+enum class GrowthRule {
+  most_contacts,   ///< the grain of most of its claimed neighbours: smooth boundaries, fewest inter-grain contacts
+  deepest_contact  ///< the grain of the claimed neighbour with the largest overlap, the first to touch as particles grow
+};
+
 /// Step 3: masking by ellipsoids, then growth along contacts, round by round, until every particle has a grain.
-GrainMap grow_grains(const Packing& packing, const GrainSeeds& seeds, const GrainShape& shape);
+/// Overlapping ellipsoids: the nearest in their metric. Particles that no contact joins to a grain: the nearest ellipsoid.
+GrainMap grow_grains(const Packing& packing, const GrainSeeds& seeds, const GrainShape& shape,
+                     GrowthRule rule = GrowthRule::most_contacts);
 
 /// pack() and seed_grains(), each kept by content in context.specimens (KEY.h5, KEY the first 16 hexadecimal digits of the
 /// SHA-256 of its settings); made when the file is missing or damaged. With no folder nothing is kept.

@@ -290,6 +290,16 @@ TEST_CASE("growth along a row of particles, and past a gap") {
   CHECK(map.mineral[7] == 3);
 }
 
+TEST_CASE("a particle between grains follows the rule of growth") {
+  // Particle 0 in the middle: two shallow contacts with grain 1, one deep contact with grain 0.
+  Packing packing = points({{0, 0, 0}, {0.9e-3, 0, 0}, {-0.99e-3, 0, 0}, {0, 0.99e-3, 0}});
+  packing.radius.assign(4, 0.5e-3);
+  packing.contacts = {{0, 1}, {0, 2}, {0, 3}};
+  const GrainSeeds seeds{{{0.9e-3, 0, 0}, {-0.5e-3, 0.5e-3, 0}}, {0.2e-3, 0.705e-3}, {0, 0}};
+  CHECK(grow_grains(packing, seeds, {}).grain == std::vector<std::int32_t>{1, 0, 1, 1});
+  CHECK(grow_grains(packing, seeds, {}, GrowthRule::deepest_contact).grain == std::vector<std::int32_t>{0, 0, 1, 1});
+}
+
 TEST_CASE("every particle has a grain: by mask when an ellipsoid holds it, else by contact") {
   RunContext context;
   const Packing& p = small_packing();
