@@ -9,6 +9,16 @@ namespace {
 
 constexpr double sample_length = 2.3, sample_gap = 0.5, row_height = 1.45, column_gap = 1.5;  // in text sizes
 
+/// A title along an axis, made smaller when it is longer than `room`, and kept inside from ... to.
+struct FittedTitle {
+  double size, middle;
+};
+FittedTitle fitted(const Panel& panel, const std::string& title, double middle, double from, double to) {
+  const double width = text_width(title, panel.title_size()), room = to - from - 4;
+  const double shrink = std::clamp(room / std::max(width, 1.0), 0.6, 1.0), half = shrink * width / 2 + 2;
+  return {shrink * panel.title_size(), std::max(from + half, std::min(middle, to - half))};
+}
+
 bool on_axis(const Scale& scale, const Tick& tick) {
   const double share = scale.share(tick.value);
   return share >= -1e-6 && share <= 1 + 1e-6;
@@ -36,8 +46,9 @@ void draw_x_axis(Sheet& sheet, const Panel& panel, const Stroke& stroke) {
   }
   const double below = base + 1.2 * panel.text * static_cast<double>(lines - 1) + 1.6 * panel.title_size();
   TextStyle title = style;
-  title.size = panel.title_size();
-  if (!panel.chart->x.title.empty()) sheet.text(panel.chart->x.title, {p.middle().x, below}, title);
+  const FittedTitle fit = fitted(panel, panel.chart->x.title, p.middle().x, panel.area.left, panel.area.right);
+  title.size = fit.size;
+  if (!panel.chart->x.title.empty()) sheet.text(panel.chart->x.title, {fit.middle, below}, title);
   TextStyle multiplier = style;
   multiplier.anchor = Anchor::end;
   if (!panel.x.multiplier.empty()) sheet.text(panel.x.multiplier, {p.right, below}, multiplier);
@@ -59,10 +70,11 @@ void draw_y_axis(Sheet& sheet, const Panel& panel, Side side, bool mirrored, con
     sheet.text(tick.label, {edge - inward * label_gap, y + cap_height * panel.text / 2}, style);
     widest = std::max(widest, text_width(tick.label, panel.text));
   }
-  const TextStyle title{panel.title_size(), Anchor::middle, ink, false, true};
+  const FittedTitle fit = fitted(panel, axis.title, p.middle().y, panel.area.top, panel.area.bottom);
+  const TextStyle title{fit.size, Anchor::middle, ink, false, true};
   const double off = label_gap + widest + 0.55 * panel.title_size();
   const double x = side == Side::left ? edge - off : edge + off + cap_height * panel.title_size();
-  if (!axis.title.empty()) sheet.text(axis.title, {x, p.middle().y}, title);
+  if (!axis.title.empty()) sheet.text(axis.title, {x, fit.middle}, title);
   TextStyle multiplier = style;
   multiplier.anchor = side == Side::left ? Anchor::start : Anchor::end;
   if (!scale.multiplier.empty()) sheet.text(scale.multiplier, {edge, p.top - 0.5 * panel.text}, multiplier);

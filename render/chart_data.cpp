@@ -83,25 +83,39 @@ void draw_points(Sheet& sheet, const Panel& panel, const Series& series) {
 
 double luminance(const Colour& c) { return 0.299 * c.red + 0.587 * c.green + 0.114 * c.blue; }
 
-void print_value(Sheet& sheet, const Panel& panel, const Bars& bars, const Bar& bar, double beyond) {
-  const std::string text = fmt::format(fmt::runtime(bars.value_format), bar.value);
-  TextStyle style{0.88 * panel.text, Anchor::middle, ink, false, false};
-  const double width = text_width(text, style.size), height = cap_height * style.size;
-  const Vec2 middle = bar.rect.middle();
+/// Height (px) of a bar's error beyond its end.
+double error_height(const Panel& panel, const Bar& bar) {
+  const Scale& scale = panel.scale(panel.chart->bars->side);
+  if (!(bar.error > 0)) return 0;
+  if (!scale.logarithmic) return bar.error / (scale.high - scale.low) * panel.plot.height();
+  return (scale.share(bar.value + bar.error) - scale.share(bar.value)) * panel.plot.height();
+}
+
+/// Where the value of a grouped bar is printed.
+Rect value_box(const Panel& panel, const Bar& bar) {
+  const ValueText value = value_text(panel, bar);
+  const double wide = value.upward ? cap_height * value.size : value.width;
+  const double tall = value.upward ? value.width : cap_height * value.size;
+  const double beyond = error_height(panel, bar) + 3, x = bar.rect.middle().x;
+  const double top = bar.value < 0 ? bar.rect.bottom + beyond : bar.rect.top - beyond - tall;
+  return {x - wide / 2, top, x + wide / 2, top + tall};
+}
+
+void print_value(Sheet& sheet, const Panel& panel, const Bar& bar) {
+  const Bars& bars = *panel.chart->bars;
+  const ValueText value = value_text(panel, bar);
+  TextStyle style{value.size, Anchor::middle, ink, false, value.upward};
   if (bars.stacked) {
-    if (bar.rect.height() < height + 3 || width > bar.rect.width() + 8) return;  // no room in this part
+    const Vec2 middle = bar.rect.middle();
+    const double height = cap_height * value.size;
+    if (bar.rect.height() < height + 3 || value.width > bar.rect.width() + 8) return;  // no room in this part
     style.colour = luminance(bars.colours[bar.series]) < 0.55 ? Colour{1, 1, 1} : ink;
-    sheet.text(text, {middle.x, middle.y + height / 2}, style);
+    style.upward = false;
+    sheet.text(value.text, {middle.x, middle.y + height / 2}, style);
     return;
   }
-  const bool down = bar.value < 0;
-  if (width <= 1.9 * bar.rect.width()) {
-    sheet.text(text, {middle.x, down ? bar.rect.bottom + beyond + 3 + height : bar.rect.top - beyond - 3}, style);
-    return;
-  }
-  style.upward = true;
-  style.anchor = down ? Anchor::end : Anchor::start;
-  sheet.text(text, {middle.x + height / 2, down ? bar.rect.bottom + beyond + 3 : bar.rect.top - beyond - 3}, style);
+  const Rect box = value_box(panel, bar);
+  sheet.text(value.text, value.upward ? Vec2{box.right, box.middle().y} : Vec2{box.middle().x, box.bottom}, style);
 }
 
 void draw_bars(Sheet& sheet, const Panel& panel) {
@@ -109,14 +123,9 @@ void draw_bars(Sheet& sheet, const Panel& panel) {
   for (const Bar& bar : bars_of(panel)) {
     sheet.rectangle(bar.rect, bars.colours[bar.series]);
     sheet.frame(bar.rect, {ink, 0.6, Line::solid});
-    double beyond = 0;
-    const double end = bar.value < 0 ? bar.rect.bottom : bar.rect.top;
-    if (bar.error > 0) {
-      const double half = bar.error / (panel.scale(bars.side).high - panel.scale(bars.side).low) * panel.plot.height();
-      draw_error(sheet, panel, bar.rect.middle().x, end + half, end - half, ink);
-      beyond = half;
-    }
-    if (bars.print_values) print_value(sheet, panel, bars, bar, beyond);
+    const double end = bar.value < 0 ? bar.rect.bottom : bar.rect.top, half = error_height(panel, bar);
+    if (half > 0) draw_error(sheet, panel, bar.rect.middle().x, end + half, end - half, ink);
+    if (bars.print_values) print_value(sheet, panel, bar);
   }
   const Scale& scale = panel.scale(bars.side);
   const double zero = panel.down(0, bars.side);
@@ -125,6 +134,16 @@ void draw_bars(Sheet& sheet, const Panel& panel) {
 }
 
 }  // namespace
+
+ValueText value_text(const Panel& panel, const Bar& bar) {
+  ValueText value;
+  value.text = fmt::format(fmt::runtime(panel.chart->bars->value_format), bar.value);
+  if (!value.text.empty() && value.text.front() == '-') value.text.replace(0, 1, "\u2212");
+  value.size = 0.88 * panel.text;
+  value.width = text_width(value.text, value.size);
+  value.upward = value.width > 1.25 * bar.rect.width();
+  return value;
+}
 
 std::vector<Bar> bars_of(const Panel& panel) {
   std::vector<Bar> placed;
@@ -202,9 +221,8 @@ Occupancy data_occupancy(const Panel& panel, const Sheet& sheet) {
             0.4);
     }
   for (const Bar& bar : bars_of(panel)) {
-    Rect rect = bar.rect;
-    if (panel.chart->bars->print_values && !panel.chart->bars->stacked) rect = rect.grown(1.4 * panel.text);
-    taken.add(rect);
+    taken.add(bar.rect);
+    if (panel.chart->bars->print_values && !panel.chart->bars->stacked) taken.add(value_box(panel, bar));
   }
   for (const Mark& mark : panel.chart->marks) {
     if (mark.kind == Mark::Kind::point) {

@@ -74,16 +74,32 @@ Ranges ranges_of(const Chart& chart) {
     if (m.kind != Mark::Kind::horizontal) take(ranges.x, chart.x, m.x);
     if (m.kind != Mark::Kind::vertical) take(ranges.y(m.side), m.side == Side::left ? chart.left : chart.right, m.y);
   }
-  // A little air over the highest value, more where values are printed over bars, none over stacks (of 100 %).
-  double air = 0.02;
-  if (chart.bars) air = chart.bars->stacked ? 0 : chart.bars->print_values ? 0.09 : 0.02;
-  for (auto [range, axis] : {std::pair{&ranges.left, &chart.left}, std::pair{&ranges.right, &chart.right}})
-    if (range->any && !axis->logarithmic) {
-      const double room = air * (range->high - range->low), low = range->low;
-      range->high = range->high <= 0 ? std::min(0.0, range->high + room) : range->high + room;
-      range->low = low >= 0 ? std::max(0.0, low - room) : low - room;
-    }
   return ranges;
+}
+
+/// Height (px) that values printed at the ends of bars need.
+double value_room(const Panel& panel) {
+  double room = 0;
+  for (const Bar& bar : bars_of(panel)) {
+    const ValueText value = value_text(panel, bar);
+    room = std::max(room, value.upward ? value.width : value.size);
+  }
+  return room + 0.5 * panel.text;
+}
+
+/// A little air beyond the data, more where values are printed at bars, none over stacks (of 100 %).
+Range with_air(const Panel& panel, Range range, Side side) {
+  const Chart& chart = *panel.chart;
+  const Axis& axis = side == Side::left ? chart.left : chart.right;
+  if (!range.any || axis.logarithmic) return range;
+  double air = 0.02;
+  if (chart.bars && chart.bars->side == side && chart.bars->stacked) air = 0;
+  if (chart.bars && chart.bars->side == side && !chart.bars->stacked && chart.bars->print_values)
+    air = std::min(0.5, value_room(panel) / panel.plot.height());
+  const double room = air * (range.high - range.low), low = range.low;
+  range.high = range.high <= 0 ? std::min(0.0, range.high + room) : range.high + room;
+  range.low = low >= 0 ? std::max(0.0, low - room) : low - room;
+  return range;
 }
 
 double widest_label(const Scale& scale, double size) {
@@ -159,8 +175,8 @@ void make_scales(Panel& panel, const Ranges& ranges) {
   }
   const int wanted = std::clamp(static_cast<int>(panel.plot.height() / (3.4 * panel.text)), 2, 8);
   const auto ticks = [&](const Axis& axis) { return axis.logarithmic ? 2 * wanted : wanted; };  // powers are short
-  panel.left = make_scale(chart.left, ranges.left, ticks(chart.left), false);
-  panel.right = make_scale(chart.right, ranges.right, ticks(chart.right), false);
+  panel.left = make_scale(chart.left, with_air(panel, ranges.left, Side::left), ticks(chart.left), false);
+  panel.right = make_scale(chart.right, with_air(panel, ranges.right, Side::right), ticks(chart.right), false);
 }
 
 /// Room left, top, right and bottom of the plot for labels and titles (without legend).

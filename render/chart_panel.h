@@ -58,6 +58,14 @@ std::vector<LegendEntry> legend_entries(const Chart& chart);
 Vec2 legend_size(const Panel& panel, const std::vector<LegendEntry>& entries, double max_width);
 
 std::vector<Bar> bars_of(const Panel& panel);
+
+/// The printed value of a bar; it stands upright where bars are too narrow for it.
+struct ValueText {
+  std::string text;
+  double size = 0, width = 0;  ///< px
+  bool upward = false;
+};
+ValueText value_text(const Panel& panel, const Bar& bar);
 /// The line of a series inside the plot area, simplified; pieces where values are missing or outside.
 std::vector<std::vector<Vec2>> curve_of(const Panel& panel, const Series& series);
 /// Places of the series' markers; long lines carry few of them.
