@@ -48,6 +48,8 @@ std::vector<Key> declare() {
       number("texture.dip", "deg", 0, 90, "\"0 deg\"", "dip of the long axes, from the horizontal"),
       number("texture.dip_direction", "deg", -360, 360, "\"0 deg\"", "azimuth of the long axes, from x"),
       number("texture.seed_scale", "", 0.1, 10, "1.0", "factor on the diameters of the grain seeds"),
+      Key{"texture.growth", text, "", -inf, inf, {"most_contacts", "deepest_contact"}, "\"most_contacts\"",
+          "whose grain a gap particle takes that touches several: most of its neighbours, or the deepest contact"},
       Key{"texture.flat_joint_modulus", text, "", -inf, inf, {"sum", "linear"}, "\"sum\"",
           "modulus of the flat joint: E_c + E_b, or E_c alone"},
       Key{"texture.same_mineral_boundaries", boolean, "", -inf, inf, {}, "true",
@@ -59,7 +61,7 @@ std::vector<Key> declare() {
       number("compression.stop", "", 0.05, 0.999, "0.8", "the test ends at this share of the peak, after it"),
       number("compression.strain_limit", "", 1.05, 20, "3.0", "or at this multiple of the strain of the peak"),
       number("compression.sample_strain", "", 1e-8, 1e-3, "1e-5", "strain between samples"),
-      number("direct_tension.rate", "", 1e-10, 1e-4, "2e-8", "grip strain a step"),
+      number("direct_tension.rate", "", 1e-10, 1e-4, "1e-8", "grip strain a step"),
       number("direct_tension.ramp_strain", "", 1e-9, 1e-2, "2e-6", "strain over which the grips reach their speed"),
       number("direct_tension.stop", "", 0.05, 0.999, "0.5", "the test ends at this share of the peak, after it"),
       number("direct_tension.sample_strain", "", 1e-8, 1e-3, "1e-6", "strain between samples"),
@@ -71,6 +73,8 @@ std::vector<Key> declare() {
       Key{"sweep.aspect_ratio", reals, "", 1, 20, {}, "[1.0]", "aspect ratios, one specimen each"},
       number("extra[].aspect_ratio", "", 1, 20, "1.0", "aspect ratio of a specimen beside the sweep"),
       number("extra[].seed_scale", "", 0.1, 10, "1.0", "seed scale of a specimen beside the sweep"),
+      Key{"extra[].growth", text, "", -inf, inf, {"most_contacts", "deepest_contact"}, "\"most_contacts\"",
+          "rule of growth of a specimen beside the sweep"},
   };
 }
 
@@ -129,6 +133,7 @@ Settings read_settings(const Scenario& s, TestKind test) {
                    s.real("interaction.cohesion"),         s.real("interaction.friction_angle")};
   r.shape = {s.real("texture.aspect_ratio"), s.real("texture.dip"), s.real("texture.dip_direction")};
   r.seed_scale = s.real("texture.seed_scale");
+  r.growth = s.text("texture.growth") == "deepest_contact" ? GrowthRule::deepest_contact : GrowthRule::most_contacts;
   r.joint_modulus = s.text("texture.flat_joint_modulus") == "sum" ? JointModulus::sum : JointModulus::linear;
   r.same_mineral_boundaries = s.boolean("texture.same_mineral_boundaries");
   r.damping = s.real("solver.damping");

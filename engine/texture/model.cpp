@@ -24,19 +24,28 @@ std::string word(double value) {
   return text;
 }
 
-CaseSpec make_case(const Scenario& base, const std::string& test, double aspect_ratio, double seed_scale, bool name_scale) {
-  CaseSpec spec{test + "_ar_" + word(aspect_ratio), base.with("texture.aspect_ratio", aspect_ratio), {}, {}};
-  spec.scenario = spec.scenario.with("texture.seed_scale", seed_scale);
-  if (name_scale) spec.id += "_seed_scale_" + word(seed_scale);
+/// One specimen of the scenario.
+struct Variant {
+  double aspect_ratio = 1, seed_scale = 1;
+  std::string growth;
+  friend bool operator==(const Variant&, const Variant&) = default;
+};
+
+CaseSpec make_case(const Scenario& base, const std::string& test, const Variant& v) {
+  CaseSpec spec{test + "_ar_" + word(v.aspect_ratio), base.with("texture.aspect_ratio", v.aspect_ratio), {}, {}};
+  spec.scenario = spec.scenario.with("texture.seed_scale", v.seed_scale).with("texture.growth", v.growth);
+  if (v.seed_scale != base.real("texture.seed_scale")) spec.id += "_seed_scale_" + word(v.seed_scale);
+  if (v.growth != base.text("texture.growth")) spec.id += "_" + v.growth;
   const std::vector<std::string> prefixes = {"seed", "specimen.", "packing.", "mineral[", "interaction.",
                                              "texture.", "solver.", "measure.", test + "."};
-  spec.content = fmt::format("model = {}\nphysics = {}\ntest = {}\n{}", "grain_texture", physics_version, test,
+  spec.content = fmt::format("model = grain_texture\nphysics = {}\ntest = {}\n{}", physics_version, test,
                              spec.scenario.canonical(prefixes));
   constexpr double degrees = 57.295779513082323;
   spec.parameters = {{"test", test},
-                     {"aspect_ratio", aspect_ratio},
+                     {"aspect_ratio", v.aspect_ratio},
                      {"dip", std::round(spec.scenario.real("texture.dip") * degrees * 1e9) / 1e9},
-                     {"seed_scale", seed_scale}};
+                     {"seed_scale", v.seed_scale},
+                     {"growth", v.growth}};
   return spec;
 }
 
@@ -45,24 +54,20 @@ TestKind kind_of(const std::string& test) {
 }
 
 std::vector<CaseSpec> cases(const Scenario& scenario) {
-  struct Variant {
-    double aspect_ratio, seed_scale;
-    bool name_scale;
-  };
   std::vector<Variant> variants;
-  const double standard_scale = scenario.real("texture.seed_scale");
-  const auto add = [&](double aspect_ratio, double seed_scale, const std::string& key) {
-    for (const Variant& other : variants) {
-      if (other.aspect_ratio == aspect_ratio && other.seed_scale == seed_scale) {
-        throw scenario.error(key, "the same specimen is asked for twice", "give each aspect ratio and seed scale once");
-      }
+  const auto add = [&](Variant v, const std::string& key) {
+    if (std::find(variants.begin(), variants.end(), v) != variants.end()) {
+      throw scenario.error(key, "the same specimen is asked for twice", "give each specimen once");
     }
-    variants.push_back({aspect_ratio, seed_scale, seed_scale != standard_scale});
+    variants.push_back(std::move(v));
   };
-  for (const double ar : scenario.reals("sweep.aspect_ratio")) add(ar, standard_scale, "sweep.aspect_ratio");
+  for (const double ar : scenario.reals("sweep.aspect_ratio")) {
+    add({ar, scenario.real("texture.seed_scale"), scenario.text("texture.growth")}, "sweep.aspect_ratio");
+  }
   for (std::size_t i = 0; i < scenario.count("extra"); ++i) {
-    add(scenario.real(fmt::format("extra[{}].aspect_ratio", i)), scenario.real(fmt::format("extra[{}].seed_scale", i)),
-        fmt::format("extra[{}].seed_scale", i));
+    const auto key = [i](const char* name) { return fmt::format("extra[{}].{}", i, name); };
+    add({scenario.real(key("aspect_ratio")), scenario.real(key("seed_scale")), scenario.text(key("growth"))},
+        key("aspect_ratio"));
   }
   const std::vector<std::string>& tests = scenario.texts("tests");
   std::vector<CaseSpec> list;
@@ -70,8 +75,10 @@ std::vector<CaseSpec> cases(const Scenario& scenario) {
     if (std::count(tests.begin(), tests.end(), test) > 1) {
       throw scenario.error("tests", "'" + test + "' is named twice", "name each test once");
     }
-    for (const Variant& v : variants) list.push_back(make_case(scenario, test, v.aspect_ratio, v.seed_scale, v.name_scale));
-    for (const CaseSpec& spec : list) (void)read_settings(spec.scenario, kind_of(test));
+    for (const Variant& v : variants) {
+      list.push_back(make_case(scenario, test, v));
+      (void)read_settings(list.back().scenario, kind_of(test));
+    }
   }
   return list;
 }

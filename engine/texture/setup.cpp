@@ -43,7 +43,7 @@ Specimen make_specimen(const Settings& settings, RunContext& context) {
     if (i > j) std::swap(i, j);
   }
   std::sort(specimen.packing.contacts.begin(), specimen.packing.contacts.end());
-  specimen.grains = grow_grains(specimen.packing, specimen.seeds, settings.shape);
+  specimen.grains = grow_grains(specimen.packing, specimen.seeds, settings.shape, settings.growth);
   specimen.bonds = group_contacts(specimen.packing, specimen.grains, settings);
   return specimen;
 }

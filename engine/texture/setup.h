@@ -18,6 +18,7 @@ struct Settings {
   std::vector<Mineral> minerals;
   Interaction interaction;
   GrainShape shape;
+  GrowthRule growth = GrowthRule::most_contacts;
   double seed_scale = 1;
   JointModulus joint_modulus = JointModulus::sum;
   bool same_mineral_boundaries = true;   ///< grains of one mineral meet in parallel bonds too
