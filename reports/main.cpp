@@ -115,7 +115,7 @@ dem::StudyListener listener(dem::ProgressPrinter& progress) {
       case CaseState::simulated:
         return progress.say(outcome.id + ": done in " + dem::duration_text(outcome.seconds));
       case CaseState::left_out:
-        return progress.say(outcome.id + ": left out");
+        return;
       case CaseState::failed:
       case CaseState::missing:
         return progress.say(outcome.id + ": failed: " + outcome.error);
@@ -202,7 +202,7 @@ int run(const cli::CommandLine& line) {
   try {
     for (const dem::Study& study : studies) well = run(study, line, progress, canvas) && well;
   } catch (const dem::Interrupted&) {
-    progress.say("");
+    progress.clear();
     std::cerr << "dem-report: stopped; finished cases and the state of this one are kept in " << line.output.string()
               << ": give the same command to go on\n";
     return 128 + signal_received;

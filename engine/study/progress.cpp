@@ -67,9 +67,13 @@ void ProgressPrinter::update(const Progress& progress) {
 
 void ProgressPrinter::say(const std::string& text) {
   if (mode_ == Mode::quiet) return;
-  if (bar_shown_) out_ << "\r\033[K";
-  bar_shown_ = false;
+  clear();
   out_ << text << std::endl;
+}
+
+void ProgressPrinter::clear() {
+  if (bar_shown_) out_ << "\r\033[K" << std::flush;
+  bar_shown_ = false;
 }
 
 std::string ProgressPrinter::line(const Progress& progress) const {

@@ -14,10 +14,15 @@ class ProgressPrinter {
 
   /// `seconds` is a clock (for tests), `width` the columns of the terminal.
   ProgressPrinter(std::ostream& out, Mode mode, std::function<double()> seconds, int width = 100);
+  ~ProgressPrinter() { clear(); }
+  ProgressPrinter(const ProgressPrinter&) = delete;
+  ProgressPrinter& operator=(const ProgressPrinter&) = delete;
 
   void begin(const std::string& id, int number, int total);  ///< a case starts
   void update(const Progress& progress);                     ///< may be called at any rate
   void say(const std::string& line);                         ///< a whole line, the bar out of its way
+
+  void clear();  ///< takes the bar away, for what others print
 
   /// "compression_ar_2 (3/6) loading 42 %, step 16800, strain 0.213 %, stress 151.2 MPa, 1 min 23 s left"
   [[nodiscard]] std::string line(const Progress& progress) const;
