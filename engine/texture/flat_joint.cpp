@@ -57,15 +57,31 @@ Triple<double> any_perpendicular(const Triple<double>& d) {
 
 JointResult advance(PartlyBrokenJoint& joint, const Pose<double>& one, const Pose<double>& two) {
   const Motion<double> m = motion(one, two, joint.reference, joint.share_one, joint.reference_length);
+  JointResult result;
+  // Most broken joints are open: nothing acts while no point of the rim can touch.
+  if (joint.broken() && m.gap > 0 && m.gap * m.gap > joint.law.rho * joint.law.rho * dot(m.theta_t, m.theta_t)) {
+    if (!joint.open) {
+      for (JointElement& element : joint.element) {  // the mean of the last friction and none, over the slip
+        result.friction_heat += half * (joint.law.normal / 3.0 * joint.law.inverse_ratio) * dot(element.shear, element.shear);
+        element.shear = {0, 0, 0};
+      }
+      joint.open = true;
+    }
+    return result;
+  }
   const Arms arm = arms(joint, one, m);
   const double kn = joint.law.normal / 3.0;              // of an element, N/m
   const double ks = kn * joint.law.inverse_ratio;
-  JointResult result;
-  result.gap = m.gap;
+  const bool closes = joint.open;
+  joint.open = false;
   Triple<double> force{0, 0, 0}, couple{0, 0, 0};
   for (int e = 0; e < 3; ++e) {
     JointElement& element = joint.element[e];
     ElementMotion at = element_motion(m, arm.rho[e], element, one);
+    if (closes) {  // it touches free of shear where it is now
+      element.slip = element.slip + rotate_back(one.q, at.shear);
+      at.shear = {0, 0, 0};
+    }
     double length = root(dot(at.shear, at.shear));
     const Triple<double> whole = (-kn * at.gap) * m.n - ks * at.shear;
     const double before = half * (kn * at.gap * at.gap + ks * length * length);
@@ -110,6 +126,7 @@ JointResult advance(PartlyBrokenJoint& joint, const Pose<double>& one, const Pos
 }
 
 double stored(const PartlyBrokenJoint& joint, const Pose<double>& one, const Pose<double>& two) {
+  if (joint.open) return 0;
   const Motion<double> m = motion(one, two, joint.reference, joint.share_one, joint.reference_length);
   const Arms arm = arms(joint, one, m);
   const double kn = joint.law.normal / 3.0, ks = kn * joint.law.inverse_ratio;

@@ -72,6 +72,7 @@ struct PartlyBrokenJoint {
   Triple<double> zero_angle{};   ///< unit vector in the joint's plane (frame of particle 1) from which angles are counted
   JointElement element[3];
   bool alive = true;             ///< false: parted for good and dropped
+  bool open = false;             ///< all three elements broken and apart in the last step
 
   [[nodiscard]] bool broken() const { return !element[0].bonded && !element[1].bonded && !element[2].bonded; }
 };
@@ -93,7 +94,6 @@ struct ElementBreak {
 struct JointResult {
   Action<double> action{};
   double friction_heat = 0;   ///< J, in this call
-  double gap = 0;             ///< m
   int breaks = 0;
   ElementBreak broke[3];
 };
