@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dem::texture {
 namespace {
@@ -49,7 +50,9 @@ StrainGauge::Strains StrainGauge::read(const std::vector<Row8>& poses) const {
 
 double axial_stiffness(const std::vector<HistoryRow>& h, std::size_t row) {
   const double strain = h[row].axial_strain - h.front().axial_strain;
-  return strain > 0 ? (h[row].axial_stress - h.front().axial_stress) / strain : 0;
+  constexpr double least = 5e-5;  // below, the quotient shows the start of the platens and not the rock
+  return strain > least ? (h[row].axial_stress - h.front().axial_stress) / strain
+                        : std::numeric_limits<double>::quiet_NaN();
 }
 
 Characteristics characterise(const std::vector<HistoryRow>& h, double departure, bool compression) {

@@ -53,7 +53,7 @@ struct Characteristics {
 /// `departure`: share by which the axial stiffness must leave its plateau (mean over 10 to 25 % of the peak).
 Characteristics characterise(const std::vector<HistoryRow>& history, double departure, bool compression);
 
-/// Axial stiffness of Eq. 9: (sigma - sigma_0) / (epsilon - epsilon_0), from the first row; 0 while there is no strain.
+/// Axial stiffness of Eq. 9: (sigma - sigma_0) / (epsilon - epsilon_0), from the first row; NaN below a strain of 5e-5.
 double axial_stiffness(const std::vector<HistoryRow>& history, std::size_t row);
 
 }  // namespace dem::texture
