@@ -1,4 +1,4 @@
-// The default context: Mesa's software renderer, into memory, without a display. See glx_glue.cpp for the other half.
+// The default context: Mesa's software renderer, into memory, without a display. See gl_glue.cpp for the other half.
 #include <GL/osmesa.h>
 
 #include <cstdlib>

@@ -33,7 +33,8 @@ void adopt_current_context(vtkGenericOpenGLRenderWindow& window) {
   window.SetFrameBlitModeToNoBlit();
   window.SetAlphaBitPlanes(1);
   window.SetSize(64, 64);
-  window.InitializeFromCurrentContext();
+  if (!window.InitializeFromCurrentContext())
+    throw dem::EnvironmentError("VTK cannot draw with the off-screen OpenGL context; it needs OpenGL 3.2 or later");
 }
 
 std::string Offscreen::renderer() const {
