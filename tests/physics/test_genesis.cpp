@@ -11,7 +11,7 @@
 #include <set>
 
 #include "engine/texture/packing.h"
-#include "tests/physics/granite.h"
+#include "tests/support/granite.h"
 
 using namespace dem;
 using namespace dem::texture;
@@ -26,7 +26,7 @@ double distance(const Vec3& a, const Vec3& b) { return std::hypot(a[0] - b[0], a
 const Packing& small_packing() {
   static const Packing packing = [] {
     RunContext context;
-    return pack(granite_packing(small_diameter), context);
+    return pack(dem_test::granite_packing(small_diameter), context);
   }();
   return packing;
 }
@@ -56,7 +56,7 @@ std::filesystem::path fresh_folder(const std::string& name) {
 
 TEST_CASE("a packing is at rest at its pressure, by forces computed anew") {
   const Packing& p = small_packing();
-  const PackingSettings settings = granite_packing(small_diameter);
+  const PackingSettings settings = dem_test::granite_packing(small_diameter);
   const double wall = settings.vessel.diameter / 2, top = settings.vessel.height;
   std::vector<Vec3> force(p.radius.size(), Vec3{});
   std::vector<int> touches(p.radius.size(), 0);
@@ -103,7 +103,7 @@ TEST_CASE("a packing is at rest at its pressure, by forces computed anew") {
 
 TEST_CASE("a packing says what it is") {
   const Packing& p = small_packing();
-  const PackingSettings settings = granite_packing(small_diameter);
+  const PackingSettings settings = dem_test::granite_packing(small_diameter);
   // Contacts: exactly the touching pairs, in order.
   std::vector<std::array<std::int32_t, 2>> pairs;
   double solid = 0;
@@ -129,7 +129,7 @@ TEST_CASE("a packing says what it is") {
 
 TEST_CASE("more pressure gives a denser packing with more contacts") {
   RunContext context;
-  PackingSettings loose = granite_packing(small_diameter);
+  PackingSettings loose = dem_test::granite_packing(small_diameter);
   loose.pressure = 0.005 * loose.modulus;
   PackingSettings tight = loose;
   tight.pressure = 0.02 * tight.modulus;
@@ -165,21 +165,21 @@ TEST_CASE("the same bits for one and two threads") {
 TEST_CASE("the seed decides, and it alone") {
   RunContext context, other;
   other.threads = 2;
-  const Packing first = pack(granite_packing(5e-3, 1), context);
-  CHECK(same(first, pack(granite_packing(5e-3, 1), other)));
-  CHECK_FALSE(same(first, pack(granite_packing(5e-3, 2), context)));
+  const Packing first = pack(dem_test::granite_packing(5e-3, 1), context);
+  CHECK(same(first, pack(dem_test::granite_packing(5e-3, 1), other)));
+  CHECK_FALSE(same(first, pack(dem_test::granite_packing(5e-3, 2), context)));
 }
 
 TEST_CASE("a packing that is asked to stop stops") {
   const std::atomic<bool> stop = true;
   RunContext context;
   context.stop = &stop;
-  CHECK_THROWS_AS(pack(granite_packing(small_diameter), context), Interrupted);
+  CHECK_THROWS_AS(pack(dem_test::granite_packing(small_diameter), context), Interrupted);
 }
 
 TEST_CASE("grain seeds keep the shares and the ranges of their minerals") {
   RunContext context;
-  const auto minerals = granite_minerals();
+  const auto minerals = dem_test::granite_minerals();
   const Cylinder vessel{12.5e-3, 25e-3};
   for (const double scale : {1.0, 0.675}) {
     CAPTURE(scale);
@@ -211,7 +211,7 @@ TEST_CASE("grain seeds keep the shares and the ranges of their minerals") {
 TEST_CASE("grain seeds of a mineral are spread over the whole specimen") {
   RunContext context;
   const Cylinder vessel{12.5e-3, 25e-3};
-  const GrainSeeds seeds = seed_grains(vessel, granite_minerals(), 0.5, 2, context);
+  const GrainSeeds seeds = seed_grains(vessel, dem_test::granite_minerals(), 0.5, 2, context);
   std::map<std::int32_t, std::pair<double, int>> height;
   for (std::size_t g = 0; g < seeds.radius.size(); ++g) {
     height[seeds.mineral[g]].first += seeds.position[g][2];
@@ -303,7 +303,7 @@ TEST_CASE("a particle between grains follows the rule of growth") {
 TEST_CASE("every particle has a grain: by mask when an ellipsoid holds it, else by contact") {
   RunContext context;
   const Packing& p = small_packing();
-  const GrainSeeds seeds = seed_grains(granite_packing(small_diameter).vessel, granite_minerals(), 0.5, 1, context);
+  const GrainSeeds seeds = seed_grains(dem_test::granite_packing(small_diameter).vessel, dem_test::granite_minerals(), 0.5, 1, context);
   std::vector<std::vector<std::int32_t>> touching(p.radius.size());
   for (const auto& [i, j] : p.contacts) {
     touching[i].push_back(j);
@@ -351,7 +351,7 @@ TEST_CASE("elongated grains have more inter-grain contacts, by no more than thei
         packing.contacts.push_back({std::min(n, other->second), std::max(n, other->second)});
   std::sort(packing.contacts.begin(), packing.contacts.end());
   RunContext context;
-  const GrainSeeds seeds = seed_grains(vessel, granite_minerals(), 0.675, 1, context);
+  const GrainSeeds seeds = seed_grains(vessel, dem_test::granite_minerals(), 0.675, 1, context);
   const auto inter_share = [&](double ar) {
     const GrainMap map = grow_grains(packing, seeds, {ar, 0.5, 0.4});
     const auto inter = std::count_if(packing.contacts.begin(), packing.contacts.end(),
@@ -382,7 +382,7 @@ TEST_CASE("a specimen is kept by its content, and made again when its file is da
   context.specimens = folder;
   int packed = 0;
   context.report = [&](const Progress&) { ++packed; };
-  const PackingSettings settings = granite_packing(5e-3);
+  const PackingSettings settings = dem_test::granite_packing(5e-3);
   const std::vector<MineralGrains> minerals{{1, 1e-3, 2e-3}};
   const Genesis made = genesis(settings, minerals, 1, context);
   CHECK(packed > 0);
@@ -416,5 +416,5 @@ TEST_CASE("a specimen is kept by its content, and made again when its file is da
 
 TEST_CASE("grains that do not fit are refused in plain words") {
   RunContext context;
-  CHECK_THROWS_AS(seed_grains({3e-3, 6e-3}, granite_minerals(), 1, 1, context), CaseError);
+  CHECK_THROWS_AS(seed_grains({3e-3, 6e-3}, dem_test::granite_minerals(), 1, 1, context), CaseError);
 }

@@ -1,7 +1,7 @@
 // The specimen of the published size: 25 x 50 mm, R_min 0.35 mm.
 #include <doctest/doctest.h>
 
-#include "tests/physics/granite.h"
+#include "tests/support/granite.h"
 
 using namespace dem;
 using namespace dem::texture;
@@ -9,13 +9,13 @@ using namespace dem::texture;
 TEST_CASE("the published specimen has the published number of particles") {
   RunContext context;
   context.threads = 2;
-  const Packing packing = pack(granite_packing(25e-3), context);
+  const Packing packing = pack(dem_test::granite_packing(25e-3), context);
   CHECK(static_cast<double>(packing.radius.size()) == doctest::Approx(36528).epsilon(0.01));
   CHECK(packing.coordination == doctest::Approx(7.13).epsilon(0.01));
   CHECK(packing.pressure == doctest::Approx(0.01 * 58e9).epsilon(0.01));
   MESSAGE("particles " << packing.radius.size() << ", coordination " << packing.coordination << ", porosity "
                        << packing.porosity);
-  const GrainSeeds seeds = seed_grains({25e-3, 50e-3}, granite_minerals(), 1, 1, context);
+  const GrainSeeds seeds = seed_grains({25e-3, 50e-3}, dem_test::granite_minerals(), 1, 1, context);
   CHECK(static_cast<double>(seeds.radius.size()) == doctest::Approx(1147).epsilon(0.05));
   for (const GrowthRule rule : {GrowthRule::most_contacts, GrowthRule::deepest_contact}) {
     double before = 0;

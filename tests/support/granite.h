@@ -27,6 +27,20 @@ inline dem::texture::Settings granite(double diameter_mm, double height_mm) {
   return s;
 }
 
+/// The packing and the minerals alone, for tests of specimens: diameter (m), height twice the diameter.
+inline dem::texture::PackingSettings granite_packing(double diameter, std::uint64_t seed = 1) {
+  dem::texture::PackingSettings packing = granite(diameter * 1e3, 2e3 * diameter).packing;
+  packing.vessel = {diameter, 2 * diameter};
+  packing.seed = seed;
+  return packing;
+}
+
+inline std::vector<dem::texture::MineralGrains> granite_minerals() {
+  std::vector<dem::texture::MineralGrains> grains;
+  for (const dem::texture::Mineral& m : granite(10, 20).minerals) grains.push_back({m.share, m.diameter_min, m.diameter_max});
+  return grains;
+}
+
 /// A jittered cubic block of bonded spheres of two minerals; grain boundaries where the minerals meet and at random.
 inline dem::texture::AssemblyInput block(int nx, int ny, int nz) {
   using namespace dem::texture;
