@@ -16,3 +16,24 @@ FigureContent energy_compression(const StudyResult& study);
 FigureContent energy_tension(const StudyResult& study);
 
 }  // namespace reports::texture
+
+namespace reports::lattice {
+
+FigureContent block(const StudyResult& study);
+FigureContent unit(const StudyResult& study);
+FigureContent sliding_distance(const StudyResult& study);
+FigureContent parameters(const StudyResult& study);
+FigureContent elastic_constants(const StudyResult& study);
+FigureContent elastic_choices(const StudyResult& study);
+FigureContent block_strengths(const StudyResult& study);
+FigureContent strength_choices(const StudyResult& study);
+FigureContent stress_strain(const StudyResult& study);
+FigureContent energy_compression(const StudyResult& study);
+FigureContent energy_tension(const StudyResult& study);
+FigureContent heat_compression(const StudyResult& study);
+FigureContent heat_tension(const StudyResult& study);
+FigureContent ledger(const StudyResult& study);
+FigureContent crack_maps(const StudyResult& study);
+FigureContent crack_front(const StudyResult& study);
+
+}  // namespace reports::lattice
