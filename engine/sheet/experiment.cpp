@@ -32,7 +32,7 @@ void Experiment::apply(double share) {
                             radius = s.radius;
   if (loading_.kind == LoadingKind::growth) {
     for (std::size_t i = 0; i < n; ++i) {
-      if (loading_.grows[i]) s.radius[i] *= 1 + share * loading_.step;
+      s.radius[i] *= 1 + share * loading_.grows[i];
     }
   } else {
     const double e = share * loading_.step;

@@ -20,12 +20,12 @@ enum class LoadingKind {
 
 struct Loading {
   LoadingKind kind = LoadingKind::pure_shear;
-  double step = 0.001;              ///< strain of one step (growth: radius ratio is 1 + step)
-  int steps = 10;                   ///< at most
-  int most_breaks = 1 << 30;        ///< the run ends after so many
-  double stop_share = 0;            ///< ends when the differential stress falls below this share of its peak; 0: never
-  int substeps = 4;                 ///< of a step, once springs are broken (contacts open and close on the way)
-  std::vector<std::uint8_t> grows;  ///< per particle, for growth
+  double step = 0.001;        ///< strain of one step; for growth the largest share in `grows`
+  int steps = 10;             ///< at most
+  int most_breaks = 1 << 30;  ///< the run ends after so many
+  double stop_share = 0;      ///< ends when the differential stress falls below this share of its peak; 0: never
+  int substeps = 4;           ///< of a step, once springs are broken (contacts open and close on the way)
+  std::vector<double> grows;  ///< growth of each particle's radius in a step, as a share; for growth
 };
 
 /// One broken spring.
@@ -66,6 +66,12 @@ struct ExperimentState {
   bool breaking = false;  ///< between two breaks of that step
   double released = 0, boundary_work = 0, growth_work = 0, energy_loaded = 0, peak_xx = 0, peak_yy = 0, peak_stress = 0;
   bool finished = false;
+
+  template <class Archive>
+  void archive(Archive& a) {
+    a(x, y, radius, joined, breaks, samples, equilibrium, step, breaking, released, boundary_work, growth_work,
+      energy_loaded, peak_xx, peak_yy, peak_stress, finished);
+  }
 };
 
 class Experiment {

@@ -53,6 +53,11 @@ struct ConvergedState {
   };
   std::vector<Change> changes;    ///< since then, in order
   std::int64_t extra_solves = 0;  ///< counted towards the next factorisation
+
+  template <class Archive>
+  void archive(Archive& a) {
+    a(x, y, radius, joined, changes, extra_solves);
+  }
 };
 
 class ConvergedSolver final : public Solver {

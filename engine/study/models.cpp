@@ -1,5 +1,6 @@
 // The table of models: a model is one entry here.
 #include "engine/lattice/model.h"
+#include "engine/sheet/model.h"
 #include "engine/study/model.h"
 #include "engine/study/study.h"
 #include "engine/texture/model.h"
@@ -7,7 +8,7 @@
 namespace dem {
 
 std::span<const Model> models() {
-  static const std::vector<Model> table = {texture::model(), lattice::model()};
+  static const std::vector<Model> table = {texture::model(), lattice::model(), sheet::model()};
   return table;
 }
 

@@ -1,0 +1,200 @@
+#include "engine/sheet/keys.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace dem::sheet {
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+std::vector<Key> declare() {
+  using enum KeyType;
+  const auto number = [](const char* path, double low, double high, const char* standard, const char* help) {
+    return Key{path, real, "", low, high, {}, standard, help};
+  };
+  const auto whole = [](const char* path, double low, double high, const char* standard, const char* help) {
+    return Key{path, integer, "", low, high, {}, standard, help};
+  };
+  const auto word = [](const char* path, std::vector<std::string> choices, const char* standard, const char* help) {
+    return Key{path, text, "", -inf, inf, std::move(choices), standard, help};
+  };
+  return {
+      whole("sheet.columns", 10, 2000, "50", "particles in a row; the box is 1 wide, a particle's radius 0.5/columns"),
+      whole("sheet.rows", 0, 4000, "0", "rows of particles; 0: as many as make the box nearest to square"),
+      number("sheet.wall_weight", 0.1, 1, "1.0",
+             "factor on k of springs along walls; 0.5 makes the sheet a cut of an infinite one"),
+      word("grains.source", {"voronoi", "layers", "file"}, "\"voronoi\"",
+           "grow seeded grains, lay bands, or read an Elle file"),
+      word("grains.file", {}, "\"\"", "Elle file for source \"file\", relative to the scenario's folder"),
+      whole("grains.count", 4, 100000, "30", "number of grown grains"),
+      whole("grains.lloyd", 0, 100, "2", "steps that even out the grown grains"),
+      Key{"grains.periodic", boolean, "", -inf, inf, {}, "true", "grown grains go on over the box's edge, as in Elle"},
+      number("grains.layer_low", 0, 1, "0.45", "lower edge of the layer, share of the height"),
+      number("grains.layer_high", 0, 1, "0.55", "upper edge of the layer, share of the height"),
+      whole("grains.expanding", 0, 10000, "0", "grown grains inside the box that are marked EXPAND 1, drawn at random"),
+      word("grains.expanding_mineral", {}, "\"GARNET\"", "MINERAL of those grains; all others are MATRIX"),
+      word("rule[].attribute", {}, "", "attribute of the grain map, like MINERAL"),
+      word("rule[].value", {}, "", "grains with this value follow the rule"),
+      number("rule[].stiffness", 1e-6, 1e6, "1.0", "factor on the elastic constant of those grains"),
+      number("rule[].strength", 1e-6, 1e6, "1.0", "factor on the breaking thresholds inside them"),
+      number("rule[].growth", 0, 0.1, "0.0", "of their radii in a step of growth, as a share (0.002)"),
+      number("disorder.stiffness", 1e-6, 1e6, "1.0", "mean elastic constant k; 1 stands for 10 GPa"),
+      number("disorder.stiffness_sd", 0, 0.6, "0.25", "standard deviation of k over grains (Gauss), share of the mean"),
+      number("disorder.strength", 1e-9, 1e3, "0.006", "mean breaking stress k (d - l)/l inside grains"),
+      number("disorder.spread", 0, 0.999, "0.6", "thresholds are uniform in strength (1 - spread ... 1 + spread)"),
+      number("disorder.boundary", 1e-6, 1, "0.5", "factor on thresholds of springs between grains"),
+      word("loading.kind", {"pure_shear", "extension", "compression", "growth"}, "",
+           "shorten along y and keep the area; lengthen or shorten along x; grow marked grains"),
+      number("loading.step", 1e-9, 0.05, "0.001", "strain of a load step"),
+      whole("loading.steps", 1, 100000, "10", "load steps at most"),
+      whole("loading.most_breaks", 0, 1e9, "0", "ends the run after so many broken springs; 0: no limit"),
+      number("loading.stop_share", 0, 1, "0.0",
+             "ends the run when the differential stress is below this share of its peak"),
+      whole("loading.substeps", 1, 1000, "4", "parts of a load step once springs are broken, for the work done"),
+      Key{"loading.snapshots", reals, "", 0, 10, {}, "[]", "strains at which fields are kept; the end is always kept"},
+      Key{"solvers", texts, "", -inf, inf, {"converged", "as_published"}, "[\"converged\"]", "a case for each"},
+      number("solver.tolerance", 1e-13, 1e-2, "1e-8", "converged: largest unbalanced over largest spring force"),
+      number("published.relaxation", 0.01, 1.99, "0.9", "as_published: share of (sum F)/(sum k) that a particle moves"),
+      number("published.stop", 1e-15, 1, "1.4e-7", "as_published: largest move that counts as equilibrium, box widths"),
+      Key{"sweep.spread",
+          reals,
+          "",
+          0,
+          0.999,
+          {},
+          "[]",
+          "a case for each spread of the thresholds; empty: disorder.spread"},
+  };
+}
+
+}  // namespace
+
+std::span<const Key> keys() {
+  static const std::vector<Key> declared = declare();
+  return declared;
+}
+
+Settings read_settings(const Scenario& s) {
+  Settings r;
+  r.seed = s.seed();
+  r.columns = static_cast<int>(s.integer("sheet.columns"));
+  r.rows = static_cast<int>(s.integer("sheet.rows"));
+  if (r.rows == 1) throw s.error("sheet.rows", "one row is no sheet", "write 2 or more, or 0 for a square box");
+  r.wall_weight = s.real("sheet.wall_weight");
+  r.source = s.text("grains.source");
+  const std::string& file = s.text("grains.file");
+  if (r.source == "file") {
+    if (file.empty()) throw s.error("grains.file", "no Elle file is named", "source \"file\" reads one: give its path");
+    const std::filesystem::path path(file);
+    r.file = path.is_absolute() ? path : std::filesystem::path(s.file()).parent_path() / path;
+  } else if (!file.empty()) {
+    throw s.error("grains.file", "an Elle file is named, but the source is \"" + r.source + "\"",
+                  "write grains.source = \"file\" to read it");
+  }
+  r.voronoi.grains = static_cast<int>(s.integer("grains.count"));
+  r.voronoi.lloyd = static_cast<int>(s.integer("grains.lloyd"));
+  r.voronoi.periodic = s.boolean("grains.periodic");
+  r.voronoi.seed = r.seed;
+  r.layer_low = s.real("grains.layer_low");
+  r.layer_high = s.real("grains.layer_high");
+  if (r.source == "layers" && !(r.layer_low > 0 && r.layer_low < r.layer_high && r.layer_high < 1)) {
+    throw s.error("grains.layer_high", fmt::format("the layer goes from {:g} to {:g}", r.layer_low, r.layer_high),
+                  "its edges rise and lie inside 0 ... 1");
+  }
+  r.expanding = static_cast<int>(s.integer("grains.expanding"));
+  r.expanding_mineral = s.text("grains.expanding_mineral");
+  for (std::size_t i = 0; i < s.count("rule"); ++i) {
+    const auto key = [i](const char* name) { return fmt::format("rule[{}].{}", i, name); };
+    r.rules.push_back({s.text(key("attribute")),
+                       s.text(key("value")),
+                       {s.real(key("stiffness")), s.real(key("strength")), 1 + s.real(key("growth"))}});
+  }
+  r.disorder.stiffness = s.real("disorder.stiffness");
+  r.disorder.stiffness_sd = s.real("disorder.stiffness_sd");
+  r.disorder.strength = s.real("disorder.strength");
+  r.disorder.strength_spread = s.real("disorder.spread");
+  r.disorder.boundary = s.real("disorder.boundary");
+  const std::string& kind = s.text("loading.kind");
+  r.loading.kind = kind == "pure_shear"    ? LoadingKind::pure_shear
+                   : kind == "extension"   ? LoadingKind::extension
+                   : kind == "compression" ? LoadingKind::compression
+                                           : LoadingKind::growth;
+  r.loading.step = s.real("loading.step");
+  r.loading.steps = static_cast<int>(s.integer("loading.steps"));
+  if (s.integer("loading.most_breaks") > 0) r.loading.most_breaks = static_cast<int>(s.integer("loading.most_breaks"));
+  r.loading.stop_share = s.real("loading.stop_share");
+  r.loading.substeps = static_cast<int>(s.integer("loading.substeps"));
+  r.snapshots = s.reals("loading.snapshots");
+  if (!std::is_sorted(r.snapshots.begin(), r.snapshots.end())) {
+    throw s.error("loading.snapshots", "the strains do not rise", "list them in rising order");
+  }
+  if (s.texts("solvers").empty()) throw s.error("solvers", "no solver is named", "write [\"converged\"]");
+  r.solver = s.texts("solvers").front();
+  r.converged.tolerance = s.real("solver.tolerance");
+  r.published.relaxation = s.real("published.relaxation");
+  r.published.stop = s.real("published.stop");
+  if (r.loading.kind == LoadingKind::growth) {
+    const bool grows =
+        std::any_of(r.rules.begin(), r.rules.end(), [](const auto& rule) { return rule.properties.growth > 1; });
+    r.loading.step = 0;
+    for (const auto& rule : r.rules) r.loading.step = std::max(r.loading.step, rule.properties.growth - 1);
+    if (!grows) {
+      throw s.error("loading.kind", "no grain grows", "give a [[rule]] with growth for the grains that should");
+    }
+  }
+  return r;
+}
+
+std::vector<GrainProperties> properties_of(const ElleMap& map, const std::vector<Settings::Rule>& rules) {
+  std::vector<GrainProperties> result(map.flynns.size());
+  for (std::size_t f = 0; f < result.size(); ++f) {
+    for (const auto& rule : rules) {
+      if (map.attribute(rule.attribute, f) != rule.value) continue;
+      result[f].stiffness *= rule.properties.stiffness;
+      result[f].strength *= rule.properties.strength;
+      result[f].growth *= rule.properties.growth;
+    }
+  }
+  return result;
+}
+
+namespace {
+
+ElleMap grown_map(const Settings& settings, const Sheet& sheet) {
+  const double height = 2 * sheet.radius0 + sheet.y.back() - sheet.y.front();
+  if (settings.source == "layers") {
+    return layered_map(height, settings.layer_low * height, settings.layer_high * height);
+  }
+  VoronoiSettings voronoi = settings.voronoi;
+  voronoi.height = height;
+  ElleMap map = voronoi_map(voronoi);
+  if (settings.expanding > 0) mark_expanding(map, settings.expanding, settings.expanding_mineral, settings.seed);
+  return map;
+}
+
+}  // namespace
+
+Specimen make_specimen(const Settings& settings) {
+  Specimen made;
+  int rows = settings.rows;
+  if (settings.source == "file") {
+    made.map = read_elle(settings.file);
+    const double aspect = (made.map.high[1] - made.map.low[1]) / (made.map.high[0] - made.map.low[0]);
+    if (rows == 0)
+      rows = std::max(2, static_cast<int>(std::lround(aspect * settings.columns * 2 / std::numbers::sqrt3)));
+  }
+  made.sheet = make_sheet(settings.columns, rows, settings.wall_weight);
+  if (settings.source != "file") made.map = grown_map(settings, made.sheet);
+  made.cover = cover(made.map, made.sheet);
+  made.grains = properties_of(made.map, settings.rules);
+  apply_disorder(made.sheet, made.cover, made.grains, settings.disorder, settings.seed);
+  made.grows.reserve(made.cover.flynn.size());
+  for (const auto f : made.cover.flynn) made.grows.push_back(made.grains[static_cast<std::size_t>(f)].growth - 1);
+  return made;
+}
+
+}  // namespace dem::sheet

@@ -1,0 +1,55 @@
+#pragma once
+// The scenario keys of the spring sheet, and the settings of one case made of them.
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/scenario/scenario.h"
+#include "engine/sheet/experiment.h"
+#include "engine/sheet/grains.h"
+
+namespace dem::sheet {
+
+std::span<const Key> keys();
+
+struct Settings {
+  int columns = 50;
+  int rows = 0;
+  double wall_weight = 1;
+  std::string source;          ///< "voronoi", "layers", "file"
+  std::filesystem::path file;  ///< of the Elle map
+  VoronoiSettings voronoi;
+  double layer_low = 0, layer_high = 0;  ///< box widths, of "layers"
+  int expanding = 0;
+  std::string expanding_mineral;
+  struct Rule {
+    std::string attribute, value;
+    GrainProperties properties;
+  };
+  std::vector<Rule> rules;
+  DisorderSettings disorder;
+  Loading loading;
+  std::vector<double> snapshots;  ///< strains
+  std::string solver;             ///< "converged", "as_published"
+  ConvergedSettings converged;
+  PublishedSettings published;
+  std::uint64_t seed = 1;
+};
+
+/// Throws InputError, with the line of the key, for values that are wrong together.
+Settings read_settings(const Scenario& scenario);
+
+/// A sheet with its grains, disorder and growth, before loading.
+struct Specimen {
+  Sheet sheet;
+  ElleMap map;
+  Cover cover;
+  std::vector<GrainProperties> grains;  ///< of each flynn
+  std::vector<double> grows;            ///< of each particle, share of the radius in a step
+};
+Specimen make_specimen(const Settings& settings);
+
+/// Properties of each flynn: the product of all rules whose attribute has the rule's value.
+std::vector<GrainProperties> properties_of(const ElleMap& map, const std::vector<Settings::Rule>& rules);
+
+}  // namespace dem::sheet

@@ -1,0 +1,200 @@
+// Cases of a scenario, and how one is run.
+#include "engine/sheet/model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "engine/core/archive.h"
+#include "engine/core/files.h"
+#include "engine/core/hash.h"
+
+namespace dem::sheet {
+namespace {
+
+constexpr std::string_view version = "sheet 1";
+
+std::string words(double value) {
+  std::string text = fmt::format("{:g}", value);
+  std::replace(text.begin(), text.end(), '.', '_');
+  return text;
+}
+
+std::vector<CaseSpec> cases(const Scenario& s) {
+  const std::string& kind = s.text("loading.kind");
+  std::vector<double> spreads = s.reals("sweep.spread");
+  const bool swept = !spreads.empty();
+  if (!swept) spreads.push_back(s.real("disorder.spread"));
+  std::vector<CaseSpec> all;
+  for (const std::string& solver : s.texts("solvers")) {
+    const bool main = solver == s.texts("solvers").front();
+    for (const double spread : spreads) {
+      if (!main && spread != spreads.front()) continue;  // another solver is set beside the first case
+      Scenario one = s.with("solvers", std::vector<std::string>{solver}).with("disorder.spread", spread);
+      const Settings settings = read_settings(one);
+      CaseSpec spec{kind, one, {}, {}};
+      if (swept) spec.id += "_spread_" + words(spread);
+      if (!main) spec.id += "_" + solver;
+      if (std::any_of(all.begin(), all.end(), [&](const CaseSpec& c) { return c.id == spec.id; })) continue;
+      std::vector<std::string> prefixes{"sheet.", "grains.", "rule", "disorder.", "loading.", "solvers"};
+      prefixes.emplace_back(solver == "converged" ? "solver." : "published.");
+      spec.content = fmt::format("{}\nseed = {}\n{}", version, s.seed(), one.canonical(prefixes));
+      if (settings.source == "file") {
+        (void)read_elle(settings.file);  // a broken file is found before anything runs
+        spec.content += "map = " + sha256(read_file(settings.file)) + "\n";
+      }
+      spec.parameters = {
+          {"test", kind}, {"spread", spread}, {"solver", solver}, {"columns", static_cast<double>(settings.columns)}};
+      all.push_back(std::move(spec));
+    }
+  }
+  return all;
+}
+
+// What a checkpoint keeps.
+struct Kept {
+  ExperimentState experiment;
+  ConvergedState solver;
+  SolverWork work;
+  std::vector<std::vector<double>> fields;  // of the snapshots taken: displacement, mean, differential, strain
+  std::uint64_t next_snapshot = 0;
+
+  template <class Archive>
+  void archive(Archive& a) {
+    a(experiment, solver, work, fields, next_snapshot);
+  }
+};
+
+Table table_of(const std::string& name, const std::vector<std::vector<double>>& fields, std::size_t at) {
+  Table t;
+  t.name = name;
+  t.attributes = {{"strain", fmt::format("{:g}", fields[at + 3].front())}};
+  t.add("displacement", "1", fields[at], 2);
+  t.add("mean_stress", "1", fields[at + 1]);
+  t.add("differential_stress", "1", fields[at + 2]);
+  return t;
+}
+
+class Run {
+ public:
+  Run(const CaseSpec& spec, RunContext& context)
+      : spec_(spec), context_(context), settings_(read_settings(spec.scenario)), specimen_(make_specimen(settings_)) {
+    // Below some ten thousand particles threads wait for each other longer than they work; the result is the same.
+    threads_ = specimen_.sheet.particles() < 12000 ? 1 : context.threads;
+    settings_.loading.grows = specimen_.grows;
+    settings_.converged.threads = threads_;
+    initial_ = specimen_.sheet;
+    if (settings_.solver == "converged") {
+      converged_ = std::make_unique<ConvergedSolver>(specimen_.sheet, settings_.converged);
+    } else {
+      published_ = std::make_unique<PublishedSolver>(settings_.published, threads_);
+    }
+    experiment_ = std::make_unique<Experiment>(specimen_.sheet, solver(), settings_.loading, threads_);
+  }
+
+  Record record() {
+    resume();
+    last_ = Clock::now();
+    experiment_->run([&](const Experiment&) {
+      observe();
+      return true;
+    });
+    observe();
+    if (kept_.fields.empty() || kept_.fields.back().front() != experiment_->strain()) take();
+    Record r;
+    r.model = "sheet";
+    r.scenario = spec_.scenario.name();
+    r.case_id = spec_.id;
+    r.content = spec_.content;
+    r.physics_version = version;
+    r.seed = settings_.seed;
+    r.parameters = spec_.parameters;
+    const Specimen before{initial_, specimen_.map, specimen_.cover, specimen_.grains, specimen_.grows};
+    add_results(r, settings_, before, *experiment_, total_work());
+    for (std::size_t k = 0; k < kept_.fields.size(); k += 4) {
+      r.tables.push_back(table_of(fmt::format("snapshots/{:04}", k / 4), kept_.fields, k));
+    }
+    return r;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  Solver& solver() { return converged_ ? static_cast<Solver&>(*converged_) : *published_; }
+
+  SolverWork total_work() {
+    SolverWork w = solver().work();
+    const SolverWork& before = kept_.work;
+    w.relaxations += before.relaxations, w.solves += before.solves, w.patches += before.patches;
+    w.factorisations += before.factorisations, w.changes += before.changes, w.searches += before.searches;
+    w.raised_pivots += before.raised_pivots;
+    return w;
+  }
+
+  void resume() {
+    if (context_.checkpoint.empty()) return;
+    if (!load_checkpoint(context_.checkpoint, spec_.content, kept_).loaded) return;
+    experiment_->restore(kept_.experiment);
+    if (converged_ && !kept_.solver.x.empty()) {
+      converged_->restore(specimen_.sheet, kept_.solver);
+      // The factor that was made again has been counted before.
+      kept_.work.factorisations -= solver().work().factorisations;
+      kept_.work.changes -= solver().work().changes;
+      kept_.work.raised_pivots -= solver().work().raised_pivots;
+    }
+  }
+
+  void observe() {
+    const ExperimentState& state = experiment_->state();
+    if (!state.breaking && kept_.next_snapshot < settings_.snapshots.size() &&
+        experiment_->strain() >= settings_.snapshots[kept_.next_snapshot] * (1 - 1e-9)) {
+      take();
+      while (kept_.next_snapshot < settings_.snapshots.size() &&
+             experiment_->strain() >= settings_.snapshots[kept_.next_snapshot] * (1 - 1e-9)) {
+        ++kept_.next_snapshot;
+      }
+    }
+    const WallStress wall = wall_stress(experiment_->sheet(), experiment_->forces());
+    const double done = (state.step - (state.breaking ? 0.5 : 0.0)) / std::max(1, settings_.loading.steps);
+    context_.report({"loading", static_cast<std::int64_t>(state.breaks.size()), std::clamp(done, 0.0, 1.0),
+                     experiment_->strain(), wall.xx - wall.yy});
+    const bool stop = context_.stop && context_.stop->load();
+    if (!stop && std::chrono::duration<double>(Clock::now() - last_).count() < context_.checkpoint_seconds) return;
+    if (!context_.checkpoint.empty()) {
+      Kept now{experiment_->snapshot(), {}, total_work(), kept_.fields, kept_.next_snapshot};
+      if (converged_) now.solver = converged_->state();
+      save_checkpoint(context_.checkpoint, spec_.content, now);
+    }
+    if (stop) throw Interrupted{};
+    last_ = Clock::now();
+  }
+
+  void take() {
+    const Specimen before{initial_, {}, {}, {}, {}};
+    Table t = snapshot_table("", before, *experiment_);
+    for (auto& column : t.columns) kept_.fields.push_back(std::get<std::vector<double>>(std::move(column.values)));
+    kept_.fields.push_back({experiment_->strain()});
+  }
+
+  const CaseSpec& spec_;
+  RunContext& context_;
+  Settings settings_;
+  Specimen specimen_;
+  Sheet initial_;
+  int threads_ = 1;
+  std::unique_ptr<ConvergedSolver> converged_;
+  std::unique_ptr<PublishedSolver> published_;
+  std::unique_ptr<Experiment> experiment_;
+  Kept kept_;
+  Clock::time_point last_;
+};
+
+Record run(const CaseSpec& spec, RunContext& context) { return Run(spec, context).record(); }
+
+}  // namespace
+
+Model model() { return {"sheet", version, keys, cases, run}; }
+
+}  // namespace dem::sheet

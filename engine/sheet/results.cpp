@@ -1,0 +1,290 @@
+// What a run of the sheet leaves behind: tables, results, checks.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/sheet/measure.h"
+#include "engine/sheet/model.h"
+
+namespace dem::sheet {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+Table particle_table(const Specimen& specimen) {
+  const Sheet& s = specimen.sheet;
+  Table t;
+  t.name = "particles";
+  t.attributes = {{"columns", std::to_string(s.lattice.columns)},
+                  {"rows", std::to_string(s.lattice.rows)},
+                  {"radius", fmt::format("{}", s.radius0)},
+                  {"fixed", "1 held along x, 2 held along y, 3 both"}};
+  std::vector<double> position;
+  for (std::size_t i = 0; i < s.x.size(); ++i) position.insert(position.end(), {s.x[i], s.y[i]});
+  t.add("position", "1", std::move(position), 2);
+  t.add("grain", "", s.grain);
+  t.add("fixed", "", std::vector<std::int32_t>(s.fixed.begin(), s.fixed.end()));
+  return t;
+}
+
+// The elastic constant of a grain is that of any spring inside it.
+std::vector<double> grain_stiffness(const Specimen& specimen) {
+  std::vector<double> k(specimen.grains.size(), nan);
+  const Sheet& s = specimen.sheet;
+  for (int slot = 0; slot < s.slots(); ++slot) {
+    const auto at = static_cast<std::size_t>(slot);
+    if (s.stiffness[at] <= 0 || s.between[at] || along_wall(s, slot)) continue;
+    k[static_cast<std::size_t>(s.grain[static_cast<std::size_t>(s.first(slot))])] = s.stiffness[at];
+  }
+  return k;
+}
+
+void add_grains(Record& record, const Specimen& specimen) {
+  Table grains;
+  grains.name = "grains";
+  std::vector<std::int32_t> ids;
+  std::vector<double> growth, strength;
+  for (std::size_t f = 0; f < specimen.map.flynns.size(); ++f) {
+    ids.push_back(specimen.map.flynns[f].id);
+    growth.push_back(specimen.grains[f].growth - 1);
+    strength.push_back(specimen.grains[f].strength);
+  }
+  grains.add("flynn", "", ids);
+  grains.add("stiffness", "1", grain_stiffness(specimen));
+  grains.add("strength_factor", "1", std::move(strength));
+  grains.add("growth", "1", std::move(growth));
+  Table outlines;
+  outlines.name = "outlines";
+  std::vector<std::int32_t> of;
+  std::vector<double> points;
+  const double scale = 1 / (specimen.map.high[0] - specimen.map.low[0]);
+  for (std::size_t f = 0; f < specimen.map.flynns.size(); ++f) {
+    for (const Point& p : outline(specimen.map, f)) {
+      of.push_back(static_cast<std::int32_t>(f));
+      points.insert(points.end(), {scale * (p[0] - specimen.map.low[0]), scale * (p[1] - specimen.map.low[1])});
+    }
+  }
+  outlines.add("grain", "", std::move(of));
+  outlines.add("position", "1", std::move(points), 2);
+  record.tables.push_back(std::move(grains));
+  record.tables.push_back(std::move(outlines));
+}
+
+Table crack_table(const Specimen& specimen, const Experiment& experiment, double step) {
+  Table t;
+  t.name = "cracks";
+  t.attributes = {{"mode", "0 tension"}, {"place", "0 intra grain, 1 inter grain"}};
+  const auto& breaks = experiment.state().breaks;
+  std::vector<std::int32_t> steps, mode(breaks.size(), 0), place;
+  std::vector<double> strain, position, ratio, margin;
+  for (const Break& b : breaks) {
+    steps.push_back(b.step);
+    strain.push_back(b.step * step);
+    place.push_back(specimen.sheet.between[static_cast<std::size_t>(b.slot)]);
+    position.insert(position.end(), {b.x, b.y});
+    ratio.push_back(b.ratio);
+    margin.push_back(b.margin);
+  }
+  std::vector<double> angle;
+  for (const Break& b : breaks) angle.push_back(b.angle);
+  t.add("step", "", std::move(steps));
+  t.add("strain", "1", std::move(strain));
+  t.add("mode", "", std::move(mode));
+  t.add("place", "", std::move(place));
+  t.add("position", "1", std::move(position), 2);
+  t.add("angle", "rad", std::move(angle));
+  t.add("trend", "rad", trends(breaks, 2 * specimen.sheet.radius0));
+  t.add("ratio", "1", std::move(ratio));
+  t.add("margin", "1", std::move(margin));
+  return t;
+}
+
+Crossing crossing_at(const Settings& settings, const Specimen& specimen, const std::vector<Break>& breaks, int step) {
+  std::vector<Break> so_far;
+  for (const Break& b : breaks) {
+    if (b.step <= step) so_far.push_back(b);
+  }
+  const double height = specimen.map.high[1] - specimen.map.low[1];
+  return crossing(so_far, 2 * specimen.sheet.radius0, settings.layer_low * height, settings.layer_high * height);
+}
+
+Table history_table(const Settings& settings, const Specimen& specimen, const Experiment& experiment) {
+  Table t;
+  t.name = "history";
+  const auto& samples = experiment.state().samples;
+  const auto column = [&](const char* name, auto member, const char* unit = "1") {
+    std::vector<double> values;
+    for (const Sample& s : samples) values.push_back(static_cast<double>(s.*member));
+    t.add(name, unit, std::move(values));
+  };
+  column("strain", &Sample::strain);
+  column("stress_xx", &Sample::stress_xx);
+  column("stress_yy", &Sample::stress_yy);
+  column("loaded_stress_xx", &Sample::peak_xx);
+  column("loaded_stress_yy", &Sample::peak_yy);
+  column("breaks", &Sample::breaks);
+  column("elastic", &Sample::elastic);
+  column("released", &Sample::released);
+  column("boundary_work", &Sample::boundary_work);
+  column("growth_work", &Sample::growth_work);
+  if (settings.source != "layers") return t;
+  std::vector<double> count, spacing;
+  const double thickness = (settings.layer_high - settings.layer_low) * (specimen.map.high[1] - specimen.map.low[1]);
+  for (const Sample& s : samples) {
+    const Crossing c = crossing_at(settings, specimen, experiment.state().breaks, s.step);
+    count.push_back(static_cast<double>(c.places.size()));
+    spacing.push_back(c.mean_spacing / thickness);
+  }
+  t.add("crossing_fractures", "1", std::move(count));
+  t.add("spacing_over_thickness", "1", std::move(spacing));
+  return t;
+}
+
+// Share of trends within 30 degrees of `along` (an angle for each crack); by chance it would be a third.
+double share_along(const std::vector<double>& trend, const std::vector<double>& along) {
+  int near = 0, all = 0;
+  for (std::size_t b = 0; b < trend.size(); ++b) {
+    if (!std::isfinite(trend[b]) || !std::isfinite(along[b])) continue;
+    ++all;
+    near += std::fabs(std::cos(trend[b] - along[b])) > std::sqrt(3.0) / 2 ? 1 : 0;
+  }
+  return all > 0 ? static_cast<double>(near) / all : nan;
+}
+
+// Direction from the centre of the nearest growing grain to each crack.
+std::vector<double> radial(const Specimen& specimen, const std::vector<Break>& breaks) {
+  std::vector<Point> sum(specimen.grains.size(), Point{0, 0});
+  std::vector<int> count(specimen.grains.size(), 0);
+  for (std::size_t i = 0; i < specimen.cover.flynn.size(); ++i) {
+    const auto f = static_cast<std::size_t>(specimen.cover.flynn[i]);
+    sum[f][0] += specimen.sheet.x[i], sum[f][1] += specimen.sheet.y[i], ++count[f];
+  }
+  std::vector<double> result(breaks.size(), nan);
+  for (std::size_t b = 0; b < breaks.size(); ++b) {
+    double nearest = 1e9;
+    for (std::size_t f = 0; f < sum.size(); ++f) {
+      if (specimen.grains[f].growth <= 1 || count[f] == 0) continue;
+      const double dx = breaks[b].x - sum[f][0] / count[f], dy = breaks[b].y - sum[f][1] / count[f];
+      const double distance = std::hypot(dx, dy);
+      if (distance < nearest) nearest = distance, result[b] = std::atan2(dy, dx);
+    }
+  }
+  return result;
+}
+
+void add_peak(Record& record, const Experiment& experiment) {
+  double peak = 0, strain = 0, before = 0, breaks_before = 0;
+  for (const Sample& s : experiment.state().samples) {
+    const double now = std::fabs(s.peak_xx - s.peak_yy);
+    if (now > peak) peak = now, strain = s.strain, before = breaks_before;
+    breaks_before = s.breaks;
+  }
+  record.results.emplace_back("peak_differential_stress_dimensionless", peak);
+  record.results.emplace_back("strain_at_peak", strain);
+  record.results.emplace_back("breaks_before_peak", before);
+}
+
+void add_checks(Record& record, const Settings& settings, const Experiment& experiment) {
+  const auto& e = experiment.state().equilibrium;
+  if (settings.solver == "converged") {
+    record.checks.push_back({"equilibrium", e.worst, settings.converged.tolerance,
+                             e.worst <= settings.converged.tolerance,
+                             "Largest unbalanced force over the largest spring force, after any load step or break."});
+    const double residual = experiment.energy_residual();
+    record.checks.push_back({"energy_residual", residual, 1e-4, residual <= 1e-4,
+                             "Work that is neither elastic energy nor released by breaking, over the work."});
+  } else {
+    record.checks.push_back({"stopping_rule", static_cast<double>(e.missed), 0, e.missed == 0,
+                             "Relaxations that did not come to the published stop."});
+  }
+}
+
+}  // namespace
+
+Table snapshot_table(const std::string& name, const Specimen& specimen, const Experiment& experiment) {
+  const Sheet& s = experiment.sheet();
+  const Stress stress = particle_stress(s, experiment.forces());
+  Table t;
+  t.name = name;
+  std::vector<double> displacement, mean, differential;
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    displacement.insert(displacement.end(), {s.x[i] - specimen.sheet.x[i], s.y[i] - specimen.sheet.y[i]});
+    mean.push_back(0.5 * (stress.xx[i] + stress.yy[i]));
+    differential.push_back(std::hypot(stress.xx[i] - stress.yy[i], 2 * stress.xy[i]));
+  }
+  t.add("displacement", "1", std::move(displacement), 2);
+  t.add("mean_stress", "1", std::move(mean));
+  t.add("differential_stress", "1", std::move(differential));
+  return t;
+}
+
+void add_results(Record& record, const Settings& settings, const Specimen& specimen, const Experiment& experiment,
+                 const SolverWork& work) {
+  const auto& breaks = experiment.state().breaks;
+  record.tables.push_back(particle_table(specimen));
+  add_grains(record, specimen);
+  record.tables.push_back(crack_table(specimen, experiment, settings.loading.step));
+  record.tables.push_back(history_table(settings, specimen, experiment));
+  int between = 0, springs = 0;
+  for (const Break& b : breaks) between += specimen.sheet.between[static_cast<std::size_t>(b.slot)];
+  for (const double k : specimen.sheet.stiffness) springs += k > 0 ? 1 : 0;
+  const auto put = [&](const char* name, double value) {
+    if (std::isfinite(value)) record.results.emplace_back(name, value);
+  };
+  const auto total = static_cast<double>(breaks.size());
+  put("particles", specimen.sheet.particles());
+  put("contacts", springs);
+  put("grains", static_cast<double>(specimen.map.flynns.size()));
+  put("cracks.intra_tension", total - between);
+  put("cracks.inter_tension", between);
+  put("inter_grain_share", total > 0 ? between / total : nan);
+  put("onset_strain", total > 0 ? breaks.front().step * settings.loading.step : nan);
+  add_peak(record, experiment);
+  put("final_strain", experiment.strain());
+  std::vector<int> per_step(static_cast<std::size_t>(experiment.state().step) + 1, 0);
+  for (const Break& b : breaks) ++per_step[static_cast<std::size_t>(b.step)];
+  put("most_breaks_in_a_step", *std::max_element(per_step.begin(), per_step.end()));
+  const std::vector<double> trend = trends(breaks, 2 * specimen.sheet.radius0);
+  if (settings.loading.kind == LoadingKind::growth) {
+    put("radial_share", share_along(trend, radial(specimen, breaks)));
+  } else {
+    const double along = settings.loading.kind == LoadingKind::compression ? 0.0 : std::acos(-1.0) / 2;
+    put(settings.loading.kind == LoadingKind::extension ? "across_extension_share" : "along_compression_share",
+        share_along(trend, std::vector<double>(breaks.size(), along)));
+  }
+  if (settings.source == "layers") {
+    const Crossing c = crossing_at(settings, specimen, breaks, experiment.state().step);
+    const double thickness = (settings.layer_high - settings.layer_low) * (specimen.map.high[1] - specimen.map.low[1]);
+    put("crossing_fractures", static_cast<double>(c.places.size()));
+    put("spacing_over_thickness", c.mean_spacing / thickness);
+    put("spacing_scatter", c.scatter);
+  }
+  put("energy_residual", experiment.energy_residual());
+  put("unbalanced_force_share", experiment.state().equilibrium.worst);
+  put("load_steps", experiment.state().step);
+  put("solver.relaxations", static_cast<double>(work.relaxations));
+  put(settings.solver == "converged" ? "solver.solves" : "solver.sweeps", static_cast<double>(work.solves));
+  if (settings.solver == "converged") {
+    put("solver.factorisations", static_cast<double>(work.factorisations));
+    put("solver.patches", static_cast<double>(work.patches));
+  }
+  add_checks(record, settings, experiment);
+  for (const std::string& note : specimen.map.notes) record.notes.push_back(note);
+  if (specimen.cover.holes > 0 || specimen.cover.overlaps > 0) {
+    record.notes.push_back(fmt::format(
+        "Of {} particles {} lie in no grain (they take their neighbour's) and {} in more than one (they keep the "
+        "first); the outlines cover {:.4f} of the cell.",
+        specimen.sheet.particles(), specimen.cover.holes, specimen.cover.overlaps, specimen.cover.area_share));
+  }
+  if (settings.solver == "as_published") {
+    record.notes.push_back(
+        fmt::format("Made with the historical sweep and its stop: the largest unbalanced force reached {:.2g} of the "
+                    "largest spring "
+                    "force, so this is not equilibrium.",
+                    experiment.state().equilibrium.worst));
+  }
+}
+
+}  // namespace dem::sheet
