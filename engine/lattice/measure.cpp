@@ -140,19 +140,18 @@ void tension_results(Record& r, const Settings& s, const StrengthTest& test, con
     kinetic = x.kinetic;
     share = x.kinetic / x.work;
   }
-  r.results.emplace_back("kinetic_share_percent", 100 * share);
+  r.results.emplace_back("kinetic_share", share);
   double before_parting = 0;
   for (const Sample& x : h) {
     if (x.step <= last) before_parting = x.frictional / x.work;
   }
-  r.results.emplace_back("frictional_share_at_parting_percent", 100 * before_parting);
-  r.results.emplace_back("frictional_share_percent", 100 * h.back().frictional / h.back().work);
+  r.results.emplace_back("frictional_share_at_parting", before_parting);
+  r.results.emplace_back("frictional_share", h.back().frictional / h.back().work);
   if (test.friction_from() >= 0) {
     r.results.emplace_back("friction_after_last_opening_s", static_cast<double>(test.friction_from() - last) * dt);
   }
-  r.results.emplace_back("viscous_share_of_heat_percent", 100 * h.back().viscous / h.back().heat());
-  r.results.emplace_back("viscous_heat_after_parting_percent",
-                         100 * (1 - sample_from(h, last + 1).viscous / h.back().viscous));
+  r.results.emplace_back("viscous_share_of_heat", h.back().viscous / h.back().heat());
+  r.results.emplace_back("viscous_share_after_parting", (1 - sample_from(h, last + 1).viscous / h.back().viscous));
 }
 
 // The loading step before the peak in which most bonds opened: A1 of the paper's Fig. 5.
@@ -217,21 +216,19 @@ void compression_results(Record& r, const Settings& s, const StrengthTest& test,
   r.results.emplace_back("sliding_start_s", static_cast<double>(first) * dt);
   r.results.emplace_back("sliding_duration_s", static_cast<double>(last - first) * dt);
   r.results.emplace_back(
-      "sliding_normal_heat_share_percent",
-      100 * (c2.breaking_normal - c1.breaking_normal) /
+      "normal_share_of_sliding_heat",
+      (c2.breaking_normal - c1.breaking_normal) /
           std::max(1e-300, c2.breaking_normal + c2.breaking_shear - c1.breaking_normal - c1.breaking_shear));
-  r.results.emplace_back("frictional_heat_after_sliding_percent",
-                         100 * (1 - c2.frictional / std::max(1e-300, h.back().frictional)));
+  r.results.emplace_back("frictional_share_after_sliding", (1 - c2.frictional / std::max(1e-300, h.back().frictional)));
   double kinetic = 0, elastic_least = test.peak().elastic();
   for (const Sample& x : h) {
     if (x.step < test.peak().step) continue;
     kinetic = std::max(kinetic, x.kinetic);
     elastic_least = std::min(elastic_least, x.elastic());
   }
-  r.results.emplace_back("kinetic_share_percent", 100 * kinetic / test.peak().elastic());
-  r.results.emplace_back("elastic_left_percent", 100 * elastic_least / test.peak().elastic());
-  r.results.emplace_back("viscous_share_of_heat_percent",
-                         100 * (h.back().viscous - c1.viscous) / (h.back().heat() - c1.heat()));
+  r.results.emplace_back("kinetic_share", kinetic / test.peak().elastic());
+  r.results.emplace_back("elastic_left_share", elastic_least / test.peak().elastic());
+  r.results.emplace_back("viscous_share_of_heat", (h.back().viscous - c1.viscous) / (h.back().heat() - c1.heat()));
 }
 
 void common_results(Record& r, const Block& block, std::int64_t steps) {

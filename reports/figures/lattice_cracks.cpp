@@ -141,7 +141,7 @@ Panel halves(const dem::Record& r, const std::string& id, const std::string& lab
 // How far bonds have opened from the first ones, across the load, against time.
 struct Front {
   render::Series points, reach;
-  double speed = 0;  // m/s, straight line through the reach from 10 to 90 % of the way
+  double speed = std::nan("");  // m/s, straight line through the reach from 10 to 90 % of the way
 };
 Front front_of(const dem::Record& r) {
   const Cracks c = cracks_of(r);
@@ -179,6 +179,10 @@ Front front_of(const dem::Record& r) {
   return f;
 }
 
+std::string speed_text(double speed) {
+  return std::isfinite(speed) ? number(speed, 3) + " m/s" : "not measured, too few bonds";
+}
+
 }  // namespace
 
 FigureContent crack_maps(const StudyResult& study) {
@@ -209,8 +213,7 @@ FigureContent crack_maps(const StudyResult& study) {
                                count(r->result("cracks.opening")), count(r->result("cracks.sliding"))));
   }
   if (!said.empty()) {
-    content.finding = joined(said, "; ") + ".";
-    content.finding[0] = static_cast<char>(std::toupper(content.finding[0]));
+    content.finding = sentence(said);
   }
   return content;
 }
@@ -239,13 +242,13 @@ FigureContent crack_front(const StudyResult& study) {
         {.id = planes,
          .caption = fmt::format(
              "Planes: {}. Distance across the load between each opened bond and the nearest of the first.", planes),
-         .alt = fmt::format("The farthest opening runs at {} m/s.", number(f.speed, 3)),
+         .alt = fmt::format("The farthest opening runs at {}.", speed_text(f.speed)),
          .content = chart,
          .per_row = 1});
-    said.push_back(fmt::format("{} planes: front {} m/s; width over the time from first to last opening {} m/s", planes,
-                               number(f.speed, 3), number(result_or_nan(*r, "crack_speed_m_per_s"), 3)));
+    said.push_back(fmt::format("{} planes: front {}; width over the time from first to last opening {} m/s", planes,
+                               speed_text(f.speed), number(result_or_nan(*r, "crack_speed_m_per_s"), 3)));
   }
-  if (!said.empty()) content.finding = "Ours, " + joined(said, "; ") + ".";
+  if (!said.empty()) content.finding = sentence(said);
   return content;
 }
 

@@ -150,7 +150,7 @@ FigureContent stress_strain(const StudyResult& study) {
   inset.series = {part};
   inset.marks.push_back(dot(1e3 * r->result("a1_strain"), r->result("a1_MPa"), "A₁"));
   inset.legend = render::Chart::Legend::none;
-  chart.insets.push_back({{inset}, {0.56, 0.10, 0.40, 0.42}});
+  chart.insets.push_back({{inset}, {0.60, 0.13, 0.36, 0.28}});
   chart.legend = render::Chart::Legend::none;
   chart.width = width;
   chart.height = 480;
@@ -212,8 +212,8 @@ FigureContent energy_compression(const StudyResult& study) {
       "After A₂ the elastic energy falls to {} % of its value there, in {} µs from C₁; kinetic energy never exceeds {} "
       "% of it. "
       "The ledger closes to {} of the work.",
-      number(r->result("elastic_left_percent"), 2), number(1e6 * (m.a3 - m.c1), 3),
-      number(r->result("kinetic_share_percent"), 2), number(r->result("energy_residual"), 2));
+      number(100 * r->result("elastic_left_share"), 2), number(1e6 * (m.a3 - m.c1), 3),
+      number(100 * r->result("kinetic_share"), 2), number(r->result("energy_residual"), 2));
   return content;
 }
 
@@ -233,7 +233,9 @@ FigureContent energy_tension(const StudyResult& study) {
     chart.x.title = "Time (µs)";
     chart.left.title = "Energy (" + unit.name + ")";
     chart.series = energies(h, 0, 1e9, 0, unit.factor);
+    chart.left.low = 0;
     render::Chart inset;
+    inset.left.low = 0;
     inset.x.title = "Time since B₁ (µs)";
     inset.left.title = unit.name;
     const double after = std::max(2.5 * (m.b2 - m.d1), 4e-6);
@@ -248,13 +250,13 @@ FigureContent energy_tension(const StudyResult& study) {
     content.panels.push_back({.id = planes,
                               .caption = fmt::format("Tension, planes: {}. The inset shows the failure.", planes),
                               .alt = fmt::format("The block parts at {} s; kinetic energy reaches {} % of the work.",
-                                                 number(m.d1, 4), number(r->result("kinetic_share_percent"), 3)),
+                                                 number(m.d1, 4), number(100 * r->result("kinetic_share"), 3)),
                               .content = chart,
                               .per_row = 1});
     said.push_back(fmt::format("with {} planes it parts at {} s, kinetic share {} %", planes, number(m.d1, 4),
-                               number(r->result("kinetic_share_percent"), 3)));
+                               number(100 * r->result("kinetic_share"), 3)));
   }
-  if (!said.empty()) content.finding = "Ours: " + joined(said, "; ") + ".";
+  if (!said.empty()) content.finding = sentence(said);
   return content;
 }
 
@@ -272,16 +274,16 @@ FigureContent heat_compression(const StudyResult& study) {
       {.id = "",
        .caption = "Compression: heat at failure.",
        .alt = fmt::format("From C1 to C2 {} µs pass; {} % of the breaking heat in between is of normal springs.",
-                          number(1e6 * (m.c2 - m.c1), 3), number(r->result("sliding_normal_heat_share_percent"), 2)),
+                          number(1e6 * (m.c2 - m.c1), 3), number(100 * r->result("normal_share_of_sliding_heat"), 2)),
        .content = heats(*r, m.c1 - 0.3 * span, m.c2 + 1.5 * span, m.c1, {{m.c1, "C₁"}, {m.c2, "C₂"}}),
        .per_row = 1});
   content.finding = fmt::format(
       "From C₁ to C₂ {} µs pass. Normal springs have {} % of the breaking heat of that time. {} % of all frictional "
       "heat comes after C₂; "
       "{} % of the heat from C₁ to the end is viscous.",
-      number(1e6 * (m.c2 - m.c1), 3), number(r->result("sliding_normal_heat_share_percent"), 2),
-      number(r->result("frictional_heat_after_sliding_percent"), 3),
-      number(r->result("viscous_share_of_heat_percent"), 3));
+      number(1e6 * (m.c2 - m.c1), 3), number(100 * r->result("normal_share_of_sliding_heat"), 2),
+      number(100 * r->result("frictional_share_after_sliding"), 3),
+      number(100 * r->result("viscous_share_of_heat"), 3));
   return content;
 }
 
@@ -308,13 +310,13 @@ FigureContent heat_tension(const StudyResult& study) {
                                      "where cracks close again",
                                      number(1e6 * std::abs(r->result("friction_after_last_opening_s")), 3),
                                      r->result("friction_after_last_opening_s") < 0 ? "before" : "after",
-                                     number(r->result("frictional_share_percent"), 2))
+                                     number(100 * r->result("frictional_share"), 2))
                                : std::string("no frictional heat at any time");
     said.push_back(fmt::format("{} planes: bonds open for {} µs, {} % of the viscous heat comes later; {}", planes,
                                number(1e6 * (m.d2 - m.d1), 3),
-                               number(r->result("viscous_heat_after_parting_percent"), 3), friction));
+                               number(100 * r->result("viscous_share_after_parting"), 3), friction));
   }
-  if (!said.empty()) content.finding = "Ours, " + joined(said, "; ") + ".";
+  if (!said.empty()) content.finding = sentence(said);
   return content;
 }
 

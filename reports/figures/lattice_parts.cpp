@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 
 #include "reports/text.h"
@@ -116,6 +117,13 @@ render::Mark upright(double x, const std::string& label) {
 }
 render::Mark dot(double x, double y, const std::string& label) {
   return {.kind = render::Mark::Kind::point, .x = x, .y = y, .label = label, .colour = {0, 0, 0}};
+}
+
+std::string sentence(const std::vector<std::string>& parts) {
+  if (parts.empty()) return {};
+  std::string text = joined(parts, "; ") + ".";
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
 }
 
 render::Colour time_colour(double share) {

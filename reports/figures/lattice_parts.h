@@ -33,6 +33,9 @@ render::Series styled(render::Series series, const std::string& label, std::size
 render::Mark upright(double x, const std::string& label);
 render::Mark dot(double x, double y, const std::string& label);
 
+/// "A; b." of {"a", "b"}; "" of nothing.
+std::string sentence(const std::vector<std::string>& parts);
+
 /// From light to dark with `share` 0 ... 1, for times: apart in grey print too.
 render::Colour time_colour(double share);
 
