@@ -1,5 +1,6 @@
 find_package(Eigen3 REQUIRED NO_MODULE)
 dem_test(test_elle SOURCES unit/test_elle.cpp LIBRARIES dem_sheet)
+dem_test(test_elle_scenarios SOURCES unit/test_elle_scenarios.cpp LIBRARIES dem_sheet)
 dem_test(test_sheet_factor SOURCES physics/test_sheet_factor.cpp LIBRARIES dem_sheet)
 dem_test(test_sheet_elastic SOURCES physics/test_sheet_elastic.cpp LIBRARIES dem_sheet)
 dem_test(test_sheet_breaks SOURCES physics/test_sheet_breaks.cpp physics/sheet_reference.cpp LIBRARIES dem_sheet

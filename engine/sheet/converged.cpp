@@ -53,7 +53,7 @@ struct ConvergedSolver::Impl {
       held[k] = active(sheet, forces, slot) ? 1 : 0;
       if (!sheet.joined[k]) watched.push_back(slot);
     }
-    kept = {sheet.x, sheet.y, sheet.radius, sheet.joined, {}, 0};
+    kept = {sheet.x, sheet.y, sheet.radius, sheet.joined, {}, 0, false};
     factorised = true;
   }
 
@@ -280,8 +280,9 @@ struct ConvergedSolver::Impl {
     Relaxation result;
     int slow = 0, patched = 0;
     bool fresh = false;
-    // The load moved: every direction has turned a little. One factor a load step is little beside its breaks.
-    if (!factorised || near.empty()) factorise(sheet, forces), fresh = true;
+    // The load moved, and every direction turned a little: the breaks that follow are worth a new factor.
+    if (!factorised || (!near.empty() && kept.load_moved)) factorise(sheet, forces), fresh = true;
+    if (near.empty()) kept.load_moved = true;
     Imbalance now = look(sheet, forces);
     const auto balanced = [&] { return now.most <= settings.tolerance * now.largest_spring; };
     while (!balanced() && result.iterations < settings.most_solves) {
@@ -340,6 +341,7 @@ void ConvergedSolver::restore(const Sheet& sheet, const ConvergedState& state) {
   impl_->factorise(then, forces);
   for (const auto& change : state.changes) impl_->change(then, change);
   impl_->kept.extra_solves = state.extra_solves;
+  impl_->kept.load_moved = state.load_moved;
   impl_->watched.clear();
   for (int slot = 0; slot < sheet.slots(); ++slot) {
     const auto k = static_cast<std::size_t>(slot);

@@ -53,10 +53,11 @@ struct ConvergedState {
   };
   std::vector<Change> changes;    ///< since then, in order
   std::int64_t extra_solves = 0;  ///< counted towards the next factorisation
+  bool load_moved = false;        ///< since the last factorisation
 
   template <class Archive>
   void archive(Archive& a) {
-    a(x, y, radius, joined, changes, extra_solves);
+    a(x, y, radius, joined, changes, extra_solves, load_moved);
   }
 };
 

@@ -57,6 +57,18 @@ std::span<const Figure> figures() {
        lattice::crack_front},
       {"quartzite_ledger", "Residual of the energy ledger", "", "lattice", {"quartzite_energy", "quartzite_strength"},
        lattice::ledger},
+      {"sheet_neighbours", "Six neighbours", "Model description, Fig. 1", "sheet", {"elle_polycrystal", "elle_layer_extension", "elle_layer_compression", "elle_expanding_grains"}, sheet::neighbours},
+      {"sheet_box", "The deformation box and its walls", "Model description, Fig. 2", "sheet", {"elle_polycrystal", "elle_layer_extension", "elle_layer_compression", "elle_expanding_grains"}, sheet::box},
+      {"sheet_flow", "The order of work", "Model description, Fig. 3", "sheet", {"elle_polycrystal", "elle_layer_extension", "elle_layer_compression", "elle_expanding_grains"}, sheet::flow},
+      {"sheet_elle", "Grains under the particles", "Model description, Fig. 4", "sheet", {"elle_polycrystal", "elle_layer_extension", "elle_layer_compression", "elle_expanding_grains"}, sheet::elle_layer},
+      {"sheet_fracture_maps", "Fractures", "", "sheet", {"elle_polycrystal", "elle_layer_extension", "elle_layer_compression", "elle_expanding_grains"}, sheet::fracture_maps},
+      {"sheet_stress_fields", "Mean and differential stress", "", "sheet", {"elle_polycrystal", "elle_layer_extension", "elle_layer_compression", "elle_expanding_grains"}, sheet::stress_fields},
+      {"sheet_stress_strain", "Stress, strain and broken springs", "", "sheet", {"elle_polycrystal", "elle_layer_extension", "elle_layer_compression", "elle_expanding_grains"}, sheet::stress_strain},
+      {"sheet_spacing", "Spacing of fractures through the layer", "", "sheet", {"elle_layer_extension", "elle_layer_compression"}, sheet::spacing},
+      {"sheet_rose", "Which way fractures run", "", "sheet", {"elle_polycrystal"}, sheet::rose_of_fractures},
+      {"sheet_radial", "Fractures around growing grains", "", "sheet", {"elle_expanding_grains"}, sheet::radial_fractures},
+      {"sheet_solvers", "Converged and historical solver", "", "sheet", {"elle_polycrystal"}, sheet::solvers},
+      {"sheet_energy", "Energy", "", "sheet", {"elle_polycrystal", "elle_layer_extension", "elle_layer_compression", "elle_expanding_grains"}, sheet::energy},
   };
   return table;
 }

@@ -37,3 +37,20 @@ FigureContent crack_maps(const StudyResult& study);
 FigureContent crack_front(const StudyResult& study);
 
 }  // namespace reports::lattice
+
+namespace reports::sheet {
+
+FigureContent neighbours(const StudyResult& study);
+FigureContent box(const StudyResult& study);
+FigureContent flow(const StudyResult& study);
+FigureContent elle_layer(const StudyResult& study);
+FigureContent fracture_maps(const StudyResult& study);
+FigureContent rose_of_fractures(const StudyResult& study);
+FigureContent radial_fractures(const StudyResult& study);
+FigureContent spacing(const StudyResult& study);
+FigureContent stress_strain(const StudyResult& study);
+FigureContent energy(const StudyResult& study);
+FigureContent stress_fields(const StudyResult& study);
+FigureContent solvers(const StudyResult& study);
+
+}  // namespace reports::sheet

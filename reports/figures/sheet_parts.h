@@ -1,0 +1,62 @@
+#pragma once
+// What the figures of the spring sheet share: cases, the sheet as drawn, maps of fractures as vectors.
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reports/figures/parts.h"
+
+namespace reports::sheet {
+
+/// All records of the study, in report order; the first is the scenario's own.
+std::vector<const dem::Record*> records_of(const StudyResult& study);
+const dem::Record* main_record(const StudyResult& study);
+/// "spread 0.6", "spread 0.6, as published": what sets a case apart from the others of its study.
+std::string label_of(const dem::Record& record, const StudyResult& study);
+
+/// The sheet as it was laid: columns, rows and radius, in box widths.
+struct Layout {
+  int columns = 0, rows = 0;
+  double radius = 0;
+  double height = 0;
+};
+Layout layout_of(const dem::Record& record);
+
+/// Drawing on a box of `width` pixels: places in box widths, y upwards.
+class Drawing {
+ public:
+  Drawing(double x0, double y0, double x1, double y1, double width);
+  void polygon(const std::vector<std::array<double, 2>>& points, std::string_view fill, std::string_view stroke,
+               double stroke_width);
+  void line(double x0, double y0, double x1, double y1, std::string_view colour, double width);
+  void circle(double x, double y, double radius, std::string_view fill, std::string_view stroke, double stroke_width);
+  void text(double x, double y, std::string_view words, double size, std::string_view anchor = "middle");
+  void raw(std::string_view svg) { body_ += svg; }
+  [[nodiscard]] double px(double x) const { return (x - x0_) * scale_; }
+  [[nodiscard]] double py(double y) const { return (y1_ - y) * scale_; }
+  [[nodiscard]] double scale() const { return scale_; }
+  [[nodiscard]] std::string finish(double extra_below = 0) const;
+
+ private:
+  double x0_, y1_, scale_, width_, height_;
+  std::string body_;
+};
+
+/// Soft colours for neighbouring grains.
+std::string grain_fill(std::size_t grain);
+/// Fill of grains that grow, or of the layer.
+constexpr std::string_view marked_fill = "#e9d9a8";
+constexpr std::string_view intra_colour = "#d55e00", inter_colour = "#0b3c5d";
+
+/// The outlines of a record's grains, each as points.
+std::vector<std::vector<std::array<double, 2>>> outlines_of(const dem::Record& record);
+
+/// Cracks up to a strain over the grain outlines, intra and inter grain by colour.
+std::string fracture_map(const dem::Record& record, double strain, double width);
+/// Number of cracks up to a strain: {intra, inter}.
+std::array<int, 2> crack_counts(const dem::Record& record, double strain);
+
+/// Names of a record's snapshot tables, and their strains.
+std::vector<std::pair<std::string, double>> snapshots_of(const dem::Record& record);
+
+}  // namespace reports::sheet
