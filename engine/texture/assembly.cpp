@@ -19,7 +19,6 @@ constexpr double parted = 0.05;             // a broken contact open by this sha
 
 using Row = Lanes4;
 Row& row(Row8& r, int half) { return *reinterpret_cast<Row*>(r.v + 4 * half); }
-double sum3(Row a) { return a[0] + a[1] + a[2]; }
 Triple<double> triple(const Row8& r, int half) { return {r.v[4 * half], r.v[4 * half + 1], r.v[4 * half + 2]}; }
 Vec3 array(const Triple<double>& t) { return {t.x, t.y, t.z}; }
 
@@ -246,7 +245,7 @@ double Assembly::hold(std::size_t slab) {
     sums.force[w] -= force_[i].v[2];
     force_[i] = Row8{};
     velocity_[i] = Row8{{0, 0, walls_[w].speed, 0, 0, 0, 0, 0}};
-    kinetic += mass_[i] * walls_[w].speed * walls_[w].speed;
+    kinetic += inertia_[i].mass * walls_[w].speed * walls_[w].speed;
   }
   for (std::size_t w = 0; w < 2; ++w) {
     sums.work += 0.5 * (sums.force[w] + sums.force_before[w]) * walls_[w].drift_before;
@@ -258,40 +257,12 @@ void Assembly::integrate(std::size_t slab) {
   SlabSums& sums = sums_[slab];
   const auto begin = static_cast<std::size_t>(slab_begin_[slab]), end = static_cast<std::size_t>(slab_begin_[slab + 1]);
   const double held_kinetic = held_.empty() ? 0.0 : hold(slab);
-  const Row zero{}, alpha = zero + damping_;
-  Row heat{}, late_heat{}, kinetic{};
-  for (std::size_t i = begin; i < end; ++i) {
-    Row8 &p = pose_[i], &velocity = velocity_[i], &force = force_[i];
-    const double rate[2] = {dt_ / mass_[i], dt_ / inertia_[i]};
-    for (int half = 0; half < 2; ++half) {
-      const Row f = row(force, half), v = row(velocity, half);
-      const Row size = f < zero ? -f : f;
-      const Row against = alpha * size;
-      const Row resist = v > zero ? -against : (v < zero ? against : zero);
-      const Row next = v + rate[half] * (f + resist);
-      const double inert = dt_ / rate[half];
-      late_heat -= resist * next;
-      heat -= resist * (v + next);
-      kinetic += inert * (v * next);
-      row(velocity, half) = next;
-      row(force, half) = zero;
-    }
-    const Row v = row(velocity, 0), w = row(velocity, 1);
-    row(p, 0) += dt_ * v;
-    const double h = 0.5 * dt_, x = h * w[0], y = h * w[1], z = h * w[2];
-    double* q = p.v + 4;
-    const double q0 = q[0] - x * q[1] - y * q[2] - z * q[3], q1 = q[1] + x * q[0] + y * q[3] - z * q[2];
-    const double q2 = q[2] - x * q[3] + y * q[0] + z * q[1], q3 = q[3] + x * q[2] - y * q[1] + z * q[0];
-    // One Newton step for 1/|q|: |q|^2 differs from one by (h w)^2 only.
-    const double norm = 1.5 - 0.5 * (q0 * q0 + q1 * q1 + q2 * q2 + q3 * q3);
-    q[0] = norm * q0;
-    q[1] = norm * q1;
-    q[2] = norm * q2;
-    q[3] = norm * q3;
-  }
-  sums.late_damping = 0.5 * dt_ * sum3(late_heat);
-  sums.damping += 0.5 * dt_ * sum3(heat);
-  sums.kinetic = 0.5 * (sum3(kinetic) - held_kinetic);
+  MotionLoop loop{pose_[begin].v, velocity_[begin].v, force_[begin].v, &inertia_[begin],
+                  static_cast<std::int64_t>(end - begin), dt_, damping_, 0, 0, 0};
+  kernels_->integrate(loop);
+  sums.late_damping = 0.5 * dt_ * loop.late_heat;
+  sums.damping += 0.5 * dt_ * loop.heat;
+  sums.kinetic = 0.5 * (loop.kinetic - held_kinetic);
 }
 
 double Assembly::block_elastic(const Block& block) const {

@@ -96,7 +96,7 @@ class Assembly {
   [[nodiscard]] const std::vector<Row8>& poses() const { return pose_; }      ///< x y z radius | w x y z
   [[nodiscard]] std::vector<Row8>& velocities() { return velocity_; }         ///< vx vy vz 0 | wx wy wz 0
   [[nodiscard]] const std::vector<Crack>& cracks() const { return cracks_; }  ///< ordered by step
-  [[nodiscard]] double mass(std::size_t particle) const { return mass_[particle]; }
+  [[nodiscard]] double mass(std::size_t particle) const { return inertia_[particle].mass; }
   [[nodiscard]] std::size_t fresh_contacts() const;                           ///< contacts formed after installation
   void set_threads(int threads) { threads_ = threads; }
   void set_kernels(const Kernels& set) { kernels_ = &set; }
@@ -178,7 +178,7 @@ class Assembly {
   int threads_ = 1;
   const Kernels* kernels_ = nullptr;
   double damping_ = 0;
-  std::vector<double> mass_, inertia_;
+  std::vector<Inertia> inertia_;
   std::vector<std::int32_t> mineral_, slab_;
   std::vector<std::int8_t> grip_;
   std::vector<std::vector<ContactGroup>> fresh_;

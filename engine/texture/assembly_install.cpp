@@ -135,8 +135,7 @@ void Assembly::install(const AssemblyInput& input) {
   double smallest = huge;
   for (std::size_t i = 0; i < n; ++i) {
     const double r = input.radius[i], mass = input.density[i] * 4 / 3 * pi * r * r * r;
-    mass_.push_back(mass);
-    inertia_.push_back(0.4 * mass * r * r);
+    inertia_.push_back({mass, 0.4 * mass * r * r, 0, 0});
     pose_.push_back({{input.position[i][0], input.position[i][1], input.position[i][2], r, 1, 0, 0, 0}});
     const int slab = slab_at(rule, input.position[i][2]);
     if (!slab_.empty() && slab < slab_.back()) throw std::logic_error("Assembly: particles are not ordered in slabs");
@@ -251,11 +250,15 @@ void Assembly::choose_time_step(const AssemblyInput& input) {
   double least = huge;
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t axis = 0; axis < 6; ++axis) {
-      if (k[i][axis] > 0) least = std::min(least, (axis < 3 ? mass_[i] : inertia_[i]) / k[i][axis]);
+      if (k[i][axis] > 0) least = std::min(least, (axis < 3 ? inertia_[i].mass : inertia_[i].moment) / k[i][axis]);
     }
   }
   if (least == huge) throw std::logic_error("Assembly: no contact, no time step");
   dt_ = input.time_step_factor * std::sqrt(least);
+  for (Inertia& inertia : inertia_) {
+    inertia.step_over_mass = dt_ / inertia.mass;
+    inertia.step_over_moment = dt_ / inertia.moment;
+  }
 }
 
 }  // namespace dem::texture

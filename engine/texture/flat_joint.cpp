@@ -56,9 +56,17 @@ Triple<double> any_perpendicular(const Triple<double>& d) {
 }
 
 JointResult advance(PartlyBrokenJoint& joint, const Pose<double>& one, const Pose<double>& two) {
-  const Motion<double> m = motion(one, two, joint.reference, joint.share_one, joint.reference_length);
   JointResult result;
-  // Most broken joints are open: nothing acts while no point of the rim can touch.
+  // Most broken joints are open and stay so: that shows without the motion of the faces, as bending is part of theta.
+  if (joint.open) {
+    const Triple<double> d = two.x - one.x;
+    const double gap = root(dot(d, d)) - joint.reference_length;
+    const Quaternion<double> q = relative(two.q, one.q);
+    const double half_theta_squared = q.x * q.x + q.y * q.y + q.z * q.z;
+    if (gap > 0 && gap * gap > 4 * joint.law.rho * joint.law.rho * half_theta_squared) return result;
+  }
+  const Motion<double> m = motion(one, two, joint.reference, joint.share_one, joint.reference_length);
+  // Nothing acts while no point of the rim can touch.
   if (joint.broken() && m.gap > 0 && m.gap * m.gap > joint.law.rho * joint.law.rho * dot(m.theta_t, m.theta_t)) {
     if (!joint.open) {
       for (JointElement& element : joint.element) {  // the mean of the last friction and none, over the slip

@@ -1,5 +1,5 @@
 #pragma once
-// The hot loops over bonds, built for several instruction sets from one source (kernels.inc) and chosen at run time.
+// The hot loops over bonds and particles, built for several instruction sets from one source (kernels.inc) and chosen at run time.
 // All of them give the same bits: element-wise operations only, forces added in the order of the bonds.
 #include <cstdint>
 
@@ -25,7 +25,7 @@ struct alignas(64) ParallelBondPack {
   std::int32_t first[pack_width], second[pack_width];
 };
 
-/// Positions and rotations: rows of 8 doubles, x y z radius | w x y z. 64-byte aligned.
+/// Positions and rotations: rows of 8 doubles, x y z radius | w x y z. 64-byte aligned, as are forces and velocities.
 /// Forces: rows of 8 doubles, Fx Fy Fz 0 | Mx My Mz 0.
 struct BondLoop {
   const double* pose;
@@ -35,12 +35,33 @@ struct BondLoop {
   double heat;                  ///< out: friction heat of this pass, J
 };
 
+/// Mass and moment of inertia of a particle, and the time step over each.
+struct alignas(32) Inertia {
+  double mass, moment;                  ///< kg, kg m^2
+  double step_over_mass, step_over_moment;
+};
+
+/// A range of particles and their step in time, with local damping. Velocities: rows of 8 doubles, vx vy vz 0 | wx wy wz 0.
+struct MotionLoop {
+  double* pose;
+  double* velocity;
+  double* force;                ///< set to zero
+  const Inertia* inertia;
+  std::int64_t count;
+  double step;                  ///< s
+  double damping;
+  /// Out, J: what damping took from the velocities before and after together times two; with those after alone; and
+  /// twice the kinetic energy in the middle of the step.
+  double heat, late_heat, kinetic;
+};
+
 struct Kernels {
   const char* name;  ///< "sse2", "avx2", "avx512"
   void (*flat_joints)(const FlatJointPack*, std::int32_t packs, BondLoop&);
   void (*parallel_bonds)(ParallelBondPack*, std::int32_t packs, BondLoop&);
   double (*flat_joint_energy)(const FlatJointPack*, std::int32_t packs, const double* pose);
   double (*parallel_bond_energy)(const ParallelBondPack*, std::int32_t packs, const double* pose);
+  void (*integrate)(MotionLoop&);
 };
 
 /// The best set for this processor, or the one named in the environment variable DEM_SIMD (for tests and benchmarks).

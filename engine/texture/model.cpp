@@ -15,7 +15,7 @@ namespace dem::texture {
 namespace {
 
 // Raised whenever results change.
-constexpr std::string_view physics_version = "grain_texture 1";
+constexpr std::string_view physics_version = "grain_texture 2";
 
 // 1 -> "1", 1.5 -> "1_5", 0.675 -> "0_675"
 std::string word(double value) {

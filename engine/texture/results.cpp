@@ -10,7 +10,7 @@ namespace dem::texture {
 namespace {
 
 constexpr double residual_limit = 1e-2;     // of max(W, 1e-2 W_peak)
-constexpr double imbalance_limit = 0.02;    // difference of the two ends over the peak stress
+constexpr double imbalance_limit = 0.01;    // difference of the two ends over the peak stress, root mean square
 constexpr double mega = 1e-6, giga = 1e-9;
 
 std::string words(std::string text) {
@@ -263,16 +263,23 @@ Record make_record(const Specimen& specimen, const Settings& settings, const Loa
   for (std::size_t k = 0; k < 4; ++k) put(std::string("cracks.") + classes[k], h.back().cracks[k]);
   for (std::size_t k = 0; k < 4; ++k) put(std::string("cracks_at_peak.") + classes[k], h[c.peak].cracks[k]);
 
-  double peak_work = 0, residual = 0, imbalance = 0;
+  double peak_work = 0, residual = 0, squares = 0, largest = 0;
   for (const HistoryRow& r : h) {
     peak_work = std::max(peak_work, r.ledger.work);
     const double scale = std::max(r.ledger.work, 1e-2 * peak_work);
     if (scale > 0) residual = std::max(residual, std::abs(r.ledger.residual()) / scale);
   }
-  for (std::size_t i = 0; i <= c.peak; ++i) imbalance = std::max(imbalance, std::abs(h[i].stress_imbalance));
-  imbalance /= h[c.peak].axial_stress;
+  // The root mean square measures how fast the specimen is loaded: it falls with the rate. The largest value does not: it
+  // is the wave of the one crack whose moment was sampled, 1 to 2 % of the peak stress also in very slow loading.
+  for (std::size_t i = 0; i <= c.peak; ++i) {
+    const double share = h[i].stress_imbalance / h[c.peak].axial_stress;
+    squares += share * share;
+    largest = std::max(largest, std::abs(share));
+  }
+  const double imbalance = std::sqrt(squares / static_cast<double>(c.peak + 1));
   put("energy_residual", residual);
   put("stress_imbalance", imbalance);
+  put("largest_stress_imbalance", largest);
   put("steps", h.back().step + 1);
   put("particles", static_cast<double>(specimen.packing.radius.size()));
   put("contacts", static_cast<double>(specimen.bonds.size()));
@@ -284,7 +291,8 @@ Record make_record(const Specimen& specimen, const Settings& settings, const Loa
                            "Largest residual of the energy account over max(W, 1 % of the largest W), W the work of the "
                            "platens or grips, over all samples."});
   record.checks.push_back({"equilibrium", imbalance, imbalance_limit, imbalance <= imbalance_limit,
-                           "Largest difference between the stresses at the two ends up to the peak, over the peak stress."});
+                           "Difference between the stresses at the two ends, root mean square of the samples up to the "
+                           "peak, over the peak stress."});
 
   record.tables.push_back(particle_table(specimen, settings));
   record.tables.push_back(grain_table(specimen, settings));
