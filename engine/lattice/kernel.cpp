@@ -60,25 +60,17 @@ struct Accumulated {
   Mask trip;  // bonds past a limit, over all directions
 };
 
-// Forces of the bonds in direction K of one vector of elements, added to `sum`; the force itself goes to (fx, fy, fz).
-template <int K, bool Sample>
-inline void bond(const Constants& c, const Row& row, int at, const Motion& me, Accumulated& sum, V& fx, V& fy, V& fz) {
+// Stretch and direction of the bonds in direction K of one vector of elements.
+struct Stretch {
+  V xn, ex, ey, ez;
+};
+template <int K>
+inline Stretch stretch(const Constants& c, const Row& row, int at, const Motion& me) {
   const int pitch = c.pitch;
-  const unsigned intact = row.intact[K * row.chunks + at / lanes];
-  const unsigned broken = row.broken[K * row.chunks + at / lanes];
-  double* force = K > 0 ? row.force + 3 * (K - 1) * c.force_pitch + at : nullptr;
-  if ((intact | broken) == 0) {
-    fx = fy = fz = V{};
-    if constexpr (K > 0) {
-      store(force, V{});
-      store(force + c.force_pitch, V{});
-      store(force + 2 * c.force_pitch, V{});
-    }
-    return;
-  }
-  const Motion far = motion(row.other[K] + at, pitch);
+  if ((row.intact[K * row.chunks + at / lanes] | row.broken[K * row.chunks + at / lanes]) == 0) return Stretch{V{}, V{}, V{}, V{}};
+  const double* far = row.other[K] + at;
   const double* r0 = c.bond[row.layer_kind][K];
-  const V dx = far.ux - me.ux, dy = far.uy - me.uy, dz = far.uz - me.uz;
+  const V dx = load(far) - me.ux, dy = load(far + pitch) - me.uy, dz = load(far + 2 * pitch) - me.uz;
   V along = V{};
   if constexpr (has_x(K)) along = along + r0[0] * dx;
   if constexpr (has_y(K)) along = along + r0[1] * dy;
@@ -93,13 +85,31 @@ inline void bond(const Constants& c, const Row& row, int at, const Motion& me, A
   if constexpr (has_x(K)) ex = ex + r0[0];
   if constexpr (has_y(K)) ey = ey + r0[1];
   if constexpr (has_z(K)) ez = ez + r0[2];
-  ex = ex * ir;
-  ey = ey * ir;
-  ez = ez * ir;
+  return {xn, ex * ir, ey * ir, ez * ir};
+}
 
+// Forces of the bonds in direction K of one vector of elements, added to `sum`; the force itself goes to (fx, fy, fz).
+template <int K, bool Sample>
+inline void bond(const Constants& c, const Row& row, int at, const Motion& me, const Stretch& bonds, Accumulated& sum,
+                 V& fx, V& fy, V& fz) {
+  const int pitch = c.pitch;
+  const unsigned intact = row.intact[K * row.chunks + at / lanes];
+  const unsigned broken = row.broken[K * row.chunks + at / lanes];
+  double* force = K > 0 ? row.force + 3 * (K - 1) * c.force_pitch + at : nullptr;
+  if ((intact | broken) == 0) {
+    fx = fy = fz = V{};
+    if constexpr (K > 0) {
+      store(force, V{});
+      store(force + c.force_pitch, V{});
+      store(force + 2 * c.force_pitch, V{});
+    }
+    return;
+  }
+  const V xn = bonds.xn, ex = bonds.ex, ey = bonds.ey, ez = bonds.ez;
+  const double* far = row.other[K] + at + 3 * pitch;
   double* shear = row.shear + 3 * directions * at + 3 * K * lanes;
   const V px = load(shear), py = load(shear + lanes), pz = load(shear + 2 * lanes);
-  V tx = px + (far.wx - me.wx), ty = py + (far.wy - me.wy), tz = pz + (far.wz - me.wz);
+  V tx = px + (load(far) - me.wx), ty = py + (load(far + pitch) - me.wy), tz = pz + (load(far + 2 * pitch) - me.wz);
   const V te = (tx * ex + ty * ey) + tz * ez;
   tx = tx - te * ex;
   ty = ty - te * ey;
@@ -241,12 +251,16 @@ void forces_of_row(const Constants& c, const Row& row, Events& events) {
     Accumulated sum{};
     V fx, fy, fz;
     V first_x, first_y, first_z;
-    bond<0, Sample>(c, row, at, me, sum, first_x, first_y, first_z);
-    bond<1, Sample>(c, row, at, me, sum, fx, fy, fz);
-    bond<2, Sample>(c, row, at, me, sum, fx, fy, fz);
-    bond<3, Sample>(c, row, at, me, sum, fx, fy, fz);
-    bond<4, Sample>(c, row, at, me, sum, fx, fy, fz);
-    bond<5, Sample>(c, row, at, me, sum, fx, fy, fz);
+    // All roots and quotients first: they take long, and none waits for another.
+    const Stretch bonds[directions] = {stretch<0>(c, row, at, me), stretch<1>(c, row, at, me),
+                                       stretch<2>(c, row, at, me), stretch<3>(c, row, at, me),
+                                       stretch<4>(c, row, at, me), stretch<5>(c, row, at, me)};
+    bond<0, Sample>(c, row, at, me, bonds[0], sum, first_x, first_y, first_z);
+    bond<1, Sample>(c, row, at, me, bonds[1], sum, fx, fy, fz);
+    bond<2, Sample>(c, row, at, me, bonds[2], sum, fx, fy, fz);
+    bond<3, Sample>(c, row, at, me, bonds[3], sum, fx, fy, fz);
+    bond<4, Sample>(c, row, at, me, bonds[4], sum, fx, fy, fz);
+    bond<5, Sample>(c, row, at, me, bonds[5], sum, fx, fy, fz);
     if (any(sum.trip)) {
       Spilled s;
       store(s.first[0], first_x);
