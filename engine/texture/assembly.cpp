@@ -50,20 +50,55 @@ double Assembly::half_work(std::int32_t first, std::int32_t second, const Action
 void Assembly::drive(double lower, double upper, std::int64_t ramp) {
   const std::array<double, 2> target = {lower, upper};
   for (std::size_t w = 0; w < 2; ++w) {
+    walls_[w].servo = 0;
     walls_[w].target = target[w];
     walls_[w].gain = (target[w] - walls_[w].speed) / static_cast<double>(std::max<std::int64_t>(ramp, 1));
   }
 }
 
+void Assembly::confine(double pressure, std::int64_t ramp) {
+  jacket_.target = pressure;
+  jacket_.gain = (pressure - jacket_.pressure) / static_cast<double>(std::max<std::int64_t>(ramp, 1));
+  for (Wall& wall : walls_) wall.servo = 1;
+}
+
 void Assembly::move_walls() {
-  for (Wall& wall : walls_) {
+  double jacket_force = 0, jacket_stiffness = 0;
+  std::array<double, 2> force{}, stiffness{};
+  for (const SlabSums& sums : sums_) {
+    jacket_force += sums.jacket_force;
+    jacket_stiffness += sums.jacket_stiffness;
+    for (std::size_t w = 0; w < 2; ++w) {
+      force[w] += std::abs(sums.force[w]);
+      stiffness[w] += sums.stiffness[w];
+    }
+  }
+  // Where hardly anything bears yet, a share of all first contacts stands in for the stiffness.
+  const auto newton = [](double excess, double bearing, double all) { return excess / std::max(bearing, 0.25 * all); };
+  const double next_pressure = jacket_.pressure + jacket_.gain;
+  const bool reached = (jacket_.gain >= 0) == (next_pressure >= jacket_.target);
+  jacket_.pressure = reached ? jacket_.target : next_pressure;
+  if (reached) jacket_.gain = 0;
+  const double radius = jacket_.radius, height = walls_[1].z - walls_[0].z;
+  for (std::size_t w = 0; w < 2; ++w) {
+    Wall& wall = walls_[w];
+    wall.drift_before = wall.z - wall.z_before;
+    wall.z_before = wall.z;
+    if (wall.servo != 0) {
+      const double excess = force[w] - jacket_.pressure * std::numbers::pi * radius * radius;
+      wall.z += (w == 0 ? -1 : 1) * newton(excess, stiffness[w], wall.stiffness);
+      continue;
+    }
     const double next = wall.speed + wall.gain;
     const bool arrived = (wall.gain >= 0) == (next >= wall.target);
     wall.speed = arrived ? wall.target : next;
     if (arrived) wall.gain = 0;
-    wall.drift_before = wall.z - wall.z_before;
-    wall.z_before = wall.z;
     wall.z += wall.speed * dt_;
+  }
+  jacket_.radius_before = radius;
+  if (radius > 0) {
+    const double excess = jacket_force - jacket_.pressure * 2 * std::numbers::pi * radius * height;
+    jacket_.radius += newton(excess, jacket_stiffness, jacket_.stiffness);
   }
 }
 
@@ -78,8 +113,20 @@ void Assembly::forces(Block& block, std::int64_t step, bool look_for_contacts) {
     block.friction += loop.heat;
     if (loop.flagged_count > 0) bond_events(block, step, loop.flagged_count);
   }
-  for (PartlyBrokenJoint& joint : block.broken) {
-    if (!joint.alive) continue;
+  block.active.clear();
+  for (std::size_t k = 0; k < block.broken.size(); ++k) {
+    const PartlyBrokenJoint& joint = block.broken[k];
+    if (!joint.alive || (joint.open && stays_open(joint, pose(joint.first), pose(joint.second)))) continue;
+    block.active.push_back(static_cast<std::int32_t>(k));
+  }
+  if (!block.active.empty()) {
+    kernels_->broken_joints(block.broken.data(), block.active.data(), static_cast<std::int32_t>(block.active.size()), loop);
+    block.friction += loop.heat;
+  } else {
+    loop.flagged_count = 0;
+  }
+  for (std::int32_t k = 0; k < loop.flagged_count; ++k) {
+    PartlyBrokenJoint& joint = block.broken[static_cast<std::size_t>(block.flagged[static_cast<std::size_t>(k)])];
     const JointResult result = texture::advance(joint, pose(joint.first), pose(joint.second));
     add(joint.first, joint.second, result.action);
     block.friction += result.friction_heat;
@@ -215,6 +262,7 @@ void Assembly::wall_forces(std::size_t slab) {
   SlabSums& sums = sums_[slab];
   sums.force_before = sums.force;
   sums.force = {};
+  sums.stiffness = {};
   double elastic = 0;
   for (const WallContact& contact : wall_contacts_[slab]) {
     const auto p = static_cast<std::size_t>(contact.particle);
@@ -224,12 +272,28 @@ void Assembly::wall_forces(std::size_t slab) {
     const double f = (contact.upper ? 1 : -1) * contact.stiffness * gap;  // on the particle, along z
     force_[p].v[2] += f;
     sums.force[static_cast<std::size_t>(contact.upper)] += f;
+    sums.stiffness[static_cast<std::size_t>(contact.upper)] += contact.stiffness;
     elastic += 0.5 * contact.stiffness * gap * gap;
   }
-  sums.elastic = elastic;
   for (std::size_t w = 0; w < 2; ++w) {
     sums.work += 0.5 * (sums.force[w] + sums.force_before[w]) * (walls_[w].z - walls_[w].z_before);
   }
+  sums.jacket_force_before = sums.jacket_force;
+  sums.jacket_force = sums.jacket_stiffness = 0;
+  for (const JacketContact& contact : jacket_contacts_[slab]) {
+    const auto p = static_cast<std::size_t>(contact.particle);
+    const double x = pose_[p].v[0], y = pose_[p].v[1], away = std::sqrt(x * x + y * y);
+    const double gap = jacket_.radius - away - pose_[p].v[3] - contact.gap_at_rest;
+    if (gap >= 0) continue;
+    const double f = contact.stiffness * gap;  // on the particle, outwards: negative
+    force_[p].v[0] += f * x / away;
+    force_[p].v[1] += f * y / away;
+    sums.jacket_force -= f;
+    sums.jacket_stiffness += contact.stiffness;
+    elastic += 0.5 * contact.stiffness * gap * gap;
+  }
+  sums.work -= 0.5 * (sums.jacket_force + sums.jacket_force_before) * (jacket_.radius - jacket_.radius_before);
+  sums.elastic = elastic;
 }
 
 // Held particles follow their grip; what the rest of the specimen does to them is the force of the grip. Their kinetic
@@ -323,13 +387,20 @@ Sample Assembly::advance(std::int64_t steps) {
   sample.step = static_cast<double>(step_ - 1);
   sample.time = sample.step * dt_;
   for (std::size_t w = 0; w < 2; ++w) sample.place[w] = walls_[w].z_before;
+  sample.jacket_radius = jacket_.radius_before;
+  double jacket_force = 0;
   Ledger& ledger = sample.ledger;
   for (const SlabSums& sums : sums_) {
+    jacket_force += sums.jacket_force;
     for (std::size_t w = 0; w < 2; ++w) sample.force[w] += sums.force[w];
     ledger.work += sums.work;
     ledger.damping += sums.damping - sums.late_damping;
     ledger.kinetic += sums.kinetic;
     ledger.elastic += sums.elastic;
+  }
+  if (sample.jacket_radius > 0) {
+    sample.confining_pressure =
+        jacket_force / (2 * std::numbers::pi * sample.jacket_radius * (sample.place[1] - sample.place[0]));
   }
   const auto older = static_cast<std::ptrdiff_t>(cracks_.size());
   for (Block& block : blocks_) {
@@ -465,6 +536,14 @@ void Assembly::find_near_pairs() {
       const double k = wall_modulus_[static_cast<std::size_t>(mineral_[i])] * std::numbers::pi * pose_[i].v[3];
       slab.push_back({static_cast<std::int32_t>(i), static_cast<std::int8_t>(upper), 0, k});
     }
+  }
+  for (std::size_t i = 0; jacket_.radius > 0 && i < n; ++i) {
+    const double gap = jacket_.radius - std::hypot(pose_[i].v[0], pose_[i].v[1]) - pose_[i].v[3];
+    if (gap > skin_) continue;
+    auto& slab = jacket_contacts_[static_cast<std::size_t>(slab_[i])];
+    const auto same = [&](const JacketContact& c) { return c.particle == static_cast<std::int32_t>(i); };
+    if (std::any_of(slab.begin(), slab.end(), same)) continue;
+    slab.push_back({static_cast<std::int32_t>(i), 0, wall_modulus_[static_cast<std::size_t>(mineral_[i])] * std::numbers::pi * pose_[i].v[3]});
   }
 }
 

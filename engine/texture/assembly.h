@@ -46,6 +46,7 @@ struct AssemblyInput {
   std::vector<std::int8_t> grip;       ///< 0 free, 1 held by the lower grip, 2 by the upper; empty: none
   bool platens = false;                ///< frictionless rigid planes at z_low and z_high
   double z_low = 0, z_high = 0;        ///< m; lower and upper platen (or grip face)
+  double jacket_radius = 0;            ///< m; frictionless cylindrical wall round the z axis, for confine(); 0: none
   double damping = 0.7;                ///< alpha
   double time_step_factor = 0.8;       ///< of the critical step from the stiffness sums
   int slabs = 0;                       ///< 0: chosen
@@ -64,7 +65,7 @@ struct Crack {
 
 /// The energy account, J. residual = work - everything else.
 struct Ledger {
-  double work = 0;          ///< of platens or grips
+  double work = 0;          ///< of platens or grips, and of the jacket
   double elastic = 0, kinetic = 0;
   double damping = 0, friction = 0;
   double bond_tension = 0, bond_shear = 0;  ///< released by cracks
@@ -78,6 +79,8 @@ struct Sample {
   double step = 0, time = 0;            ///< -, s
   std::array<double, 2> force{};        ///< z-force of the lower and upper platen (or grip) on the specimen, N
   std::array<double, 2> place{};        ///< z of the two, m
+  double jacket_radius = 0;             ///< m
+  double confining_pressure = 0;        ///< of the jacket on the specimen: its force over its area, Pa
   Ledger ledger;
 };
 
@@ -87,6 +90,10 @@ class Assembly {
 
   /// Speeds of the lower and upper platen or grip along z (m/s), reached linearly over `ramp` steps from now.
   void drive(double lower, double upper, std::int64_t ramp);
+  /// Confining pressure (Pa) on the jacket, and on both platens until they are driven, reached linearly over `ramp` steps
+  /// from now. These walls have no mass: at each step each of them goes to where its contacts carry the pressure, by one
+  /// Newton step from the forces of the step before.
+  void confine(double pressure, std::int64_t ramp);
   /// Advances by `steps` steps and samples at the last of them.
   Sample advance(std::int64_t steps);
 
@@ -109,7 +116,8 @@ class Assembly {
 
   template <class Archive>
   void archive(Archive& a) {
-    a(step_, walls_, pose_, velocity_, force_, near_, blocks_, cracks_, wall_contacts_, sums_);
+    a(step_, walls_, pose_, velocity_, force_, near_, blocks_, cracks_, wall_contacts_, sums_,
+      jacket_, jacket_contacts_);
   }
 
  private:
@@ -131,6 +139,18 @@ class Assembly {
     double z = 0, z_before = 0;
     double drift_before = 0;                     ///< m, of the step before
     double speed = 0, target = 0, gain = 0;  ///< m/s, m/s, m/s a step
+    double stiffness = 0;                    ///< of all its first contacts, N/m
+    std::int64_t servo = 0;                  ///< 1: moved by the confining pressure, not by its speed
+  };
+  struct JacketContact {
+    std::int32_t particle = 0;
+    double gap_at_rest = 0;  ///< m
+    double stiffness = 0;    ///< N/m
+  };
+  struct Jacket {
+    double radius = 0, radius_before = 0;        ///< m
+    double pressure = 0, target = 0, gain = 0;   ///< Pa, Pa, Pa a step
+    double stiffness = 0;                        ///< of all its first contacts, N/m
   };
   /// Contacts of one slab, or between two neighbouring slabs.
   struct Block {
@@ -142,6 +162,7 @@ class Assembly {
     std::vector<FreshContact> fresh;
     std::vector<std::array<std::int32_t, 2>> candidates;  ///< near pairs without contact
     std::vector<std::int32_t> flagged;
+    std::vector<std::int32_t> active;         ///< broken joints that do not stay open in this step
     std::vector<Crack> cracks;
     double friction = 0, bond_tension = 0, bond_shear = 0, elastic = 0;
     template <class Archive>
@@ -155,6 +176,8 @@ class Assembly {
     std::array<double, 2> force{}, force_before{};  ///< of the platens or grips on the specimen
     double work = 0, damping = 0, kinetic = 0, elastic = 0;
     double late_damping = 0;                        ///< heat of the second half of the present kick
+    std::array<double, 2> stiffness{};              ///< of the platen contacts that bear, N/m
+    double jacket_force = 0, jacket_force_before = 0, jacket_stiffness = 0;  ///< sums over radial forces
   };
 
   void install(const AssemblyInput& input);
@@ -199,6 +222,8 @@ class Assembly {
   std::vector<Crack> cracks_;
   std::vector<std::vector<WallContact>> wall_contacts_;  ///< by slab
   std::vector<SlabSums> sums_;
+  Jacket jacket_;
+  std::vector<std::vector<JacketContact>> jacket_contacts_;  ///< by slab
 };
 
 /// An order of particles in slabs thicker than the largest contact (along z), and along a Morton curve inside a slab:

@@ -199,7 +199,18 @@ void Assembly::install(const AssemblyInput& input) {
       const double k = wall_modulus_[static_cast<std::size_t>(mineral_[i])] * pi * p.v[3];
       wall_contacts_[static_cast<std::size_t>(slab_[i])].push_back(
           {static_cast<std::int32_t>(i), static_cast<std::int8_t>(upper), gap, k});
+      walls_[static_cast<std::size_t>(upper)].stiffness += k;
     }
+  }
+  jacket_contacts_.resize(sums_.size());
+  jacket_.radius = jacket_.radius_before = input.jacket_radius;
+  for (std::size_t i = 0; jacket_.radius > 0 && i < n; ++i) {
+    const Row8& p = pose_[i];
+    const double gap = jacket_.radius - std::hypot(p.v[0], p.v[1]) - p.v[3];
+    if (gap > 0) continue;
+    const double k = wall_modulus_[static_cast<std::size_t>(mineral_[i])] * pi * p.v[3];
+    jacket_contacts_[static_cast<std::size_t>(slab_[i])].push_back({static_cast<std::int32_t>(i), gap, k});
+    jacket_.stiffness += k;
   }
 }
 
@@ -246,6 +257,11 @@ void Assembly::choose_time_step(const AssemblyInput& input) {
   }
   for (const auto& slab : wall_contacts_) {
     for (const WallContact& contact : slab) k[static_cast<std::size_t>(contact.particle)][2] += contact.stiffness;
+  }
+  for (const auto& slab : jacket_contacts_) {
+    for (const JacketContact& contact : slab) {
+      for (const std::size_t axis : {0, 1}) k[static_cast<std::size_t>(contact.particle)][axis] += contact.stiffness;
+    }
   }
   double least = huge;
   for (std::size_t i = 0; i < n; ++i) {

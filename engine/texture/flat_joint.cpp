@@ -7,10 +7,6 @@ namespace dem::texture {
 namespace {
 
 constexpr double half = 0.5;
-// cos and sin of 60, 180 and 300 degrees, from the zero angle
-constexpr double cosine[3] = {half, -1.0, half};
-const double sine[3] = {std::sqrt(3.0) / 2.0, 0.0, -std::sqrt(3.0) / 2.0};
-
 Triple<double> unit(const Triple<double>& a) { return (1.0 / root(dot(a, a))) * a; }
 
 struct Arms {
@@ -23,7 +19,7 @@ Arms arms(const PartlyBrokenJoint& joint, const Pose<double>& one, const Motion<
   const Triple<double> e2 = cross(m.n, e1);
   Arms a;
   for (int e = 0; e < 3; ++e) {
-    a.rho[e] = (joint.law.rho * cosine[e]) * e1 + (joint.law.rho * sine[e]) * e2;
+    a.rho[e] = (joint.law.rho * element_cosine[e]) * e1 + (joint.law.rho * element_sine[e]) * e2;
   }
   return a;
 }
@@ -57,14 +53,7 @@ Triple<double> any_perpendicular(const Triple<double>& d) {
 
 JointResult advance(PartlyBrokenJoint& joint, const Pose<double>& one, const Pose<double>& two) {
   JointResult result;
-  // Most broken joints are open and stay so: that shows without the motion of the faces, as bending is part of theta.
-  if (joint.open) {
-    const Triple<double> d = two.x - one.x;
-    const double gap = root(dot(d, d)) - joint.reference_length;
-    const Quaternion<double> q = relative(two.q, one.q);
-    const double half_theta_squared = q.x * q.x + q.y * q.y + q.z * q.z;
-    if (gap > 0 && gap * gap > 4 * joint.law.rho * joint.law.rho * half_theta_squared) return result;
-  }
+  if (stays_open(joint, one, two)) return result;
   const Motion<double> m = motion(one, two, joint.reference, joint.share_one, joint.reference_length);
   // Nothing acts while no point of the rim can touch.
   if (joint.broken() && m.gap > 0 && m.gap * m.gap > joint.law.rho * joint.law.rho * dot(m.theta_t, m.theta_t)) {

@@ -77,6 +77,19 @@ struct PartlyBrokenJoint {
   [[nodiscard]] bool broken() const { return !element[0].bonded && !element[1].bonded && !element[2].bonded; }
 };
 
+/// Directions of the three elements from the zero angle: 60, 180 and 300 degrees.
+inline constexpr double element_cosine[3] = {0.5, -1.0, 0.5};
+inline constexpr double element_sine[3] = {0.86602540378443865, 0.0, -0.86602540378443865};
+
+/// True when a joint that was open shows without further work that it still is: bending is a part of theta.
+DEM_INLINE bool stays_open(const PartlyBrokenJoint& joint, const Pose<double>& one, const Pose<double>& two) {
+  const Triple<double> d = two.x - one.x;
+  const double gap = root(dot(d, d)) - joint.reference_length;
+  const Quaternion<double> q = relative(two.q, one.q);
+  const double half_theta_squared = q.x * q.x + q.y * q.y + q.z * q.z;
+  return joint.open && gap > 0 && gap * gap > 4 * joint.law.rho * joint.law.rho * half_theta_squared;
+}
+
 /// A fixed direction perpendicular to D.
 Triple<double> any_perpendicular(const Triple<double>& d);
 

@@ -55,6 +55,8 @@ struct MotionLoop {
   double heat, late_heat, kinetic;
 };
 
+struct PartlyBrokenJoint;
+
 struct Kernels {
   const char* name;  ///< "sse2", "avx2", "avx512"
   void (*flat_joints)(const FlatJointPack*, std::int32_t packs, BondLoop&);
@@ -62,6 +64,8 @@ struct Kernels {
   double (*flat_joint_energy)(const FlatJointPack*, std::int32_t packs, const double* pose);
   double (*parallel_bond_energy)(const ParallelBondPack*, std::int32_t packs, const double* pose);
   void (*integrate)(MotionLoop&);
+  /// Those joints of `list` in which no element breaks; the others are flagged by their number in `joints` and left alone.
+  void (*broken_joints)(PartlyBrokenJoint* joints, const std::int32_t* list, std::int32_t count, BondLoop&);
 };
 
 /// The best set for this processor, or the one named in the environment variable DEM_SIMD (for tests and benchmarks).

@@ -54,12 +54,20 @@ std::vector<Key> declare() {
           "modulus of the flat joint: E_c + E_b, or E_c alone"},
       Key{"texture.same_mineral_boundaries", boolean, "", -inf, inf, {}, "true",
           "grains of one mineral meet in parallel bonds; false: in flat joints"},
+      Key{"texture.only_mineral", text, "", -inf, inf, {}, "\"\"",
+          "name of a mineral: the specimen is of it alone, joined by flat joints throughout; empty: all minerals"},
       number("solver.damping", "", 0, 0.95, "0.7", "local damping alpha"),
       number("solver.time_step_factor", "", 0.01, 1, "0.8", "of the critical step from the stiffness sums"),
       number("compression.rate", "", 1e-10, 1e-4, "1e-7", "platen strain a step"),
       number("compression.ramp_strain", "", 1e-9, 1e-2, "2e-5", "strain over which the platens reach their speed"),
       number("compression.stop", "", 0.05, 0.999, "0.8", "the test ends at this share of the peak, after it"),
       number("compression.strain_limit", "", 1.05, 20, "3.0", "or at this multiple of the strain of the peak"),
+      number("compression.follow", "", 0, 20, "0.0",
+             "the test goes on after its end to this multiple of the strain of the peak, for the residual strength"),
+      number("compression.confining_pressure", "MPa", 0, 1000, "\"0 MPa\"",
+             "sigma_3 on a frictionless cylindrical wall; the test starts from this isotropic pressure"),
+      number("compression.confining_step", "kPa", 1e-3, 1000, "\"5 kPa\"",
+             "rise of the confining pressure a step, before the test"),
       number("compression.sample_strain", "", 1e-8, 1e-3, "1e-5", "strain between samples"),
       number("direct_tension.rate", "", 1e-10, 1e-4, "1e-8", "grip strain a step"),
       number("direct_tension.ramp_strain", "", 1e-9, 1e-2, "2e-6", "strain over which the grips reach their speed"),
@@ -70,7 +78,14 @@ std::vector<Key> declare() {
       number("measure.stiffness_departure", "", 0.001, 0.5, "0.02",
              "share by which the axial stiffness leaves its plateau at crack initiation"),
       Key{"tests", texts, "", -inf, inf, {"compression", "direct_tension"}, "", "tests to run on each specimen"},
-      Key{"sweep.aspect_ratio", reals, "", 1, 20, {}, "[1.0]", "aspect ratios, one specimen each"},
+      Key{"repeats", KeyType::integer, "", 1, 1000, {}, "1",
+          "specimens of each kind, with seed, seed + 1, ...: tells a trend from scatter"},
+      Key{"sweep.aspect_ratio", reals, "", 1, 20, {}, "[]", "aspect ratios, one specimen each; empty: texture.aspect_ratio"},
+      Key{"sweep.dip", reals, "deg", 0, 90, {}, "[]", "dips of the long axes, one specimen each; empty: texture.dip"},
+      Key{"sweep.confining_pressure", reals, "MPa", 0, 1000, {}, "[]",
+          "confining pressures of the compression tests; empty: compression.confining_pressure"},
+      Key{"sweep.mineral", texts, "", -inf, inf, {}, "[]",
+          "names of minerals, one specimen of each alone; empty: texture.only_mineral"},
       number("extra[].aspect_ratio", "", 1, 20, "1.0", "aspect ratio of a specimen beside the sweep"),
       number("extra[].seed_scale", "", 0.1, 10, "1.0", "seed scale of a specimen beside the sweep"),
       Key{"extra[].growth", text, "", -inf, inf, {"most_contacts", "deepest_contact"}, "\"most_contacts\"",
@@ -103,6 +118,7 @@ Settings read_settings(const Scenario& s, TestKind test) {
     throw s.error("specimen.height", "the specimen is wider than high", "the height must be at least the diameter");
   }
   double sum = 0;
+  const std::string& only = s.text("texture.only_mineral");
   const std::size_t count = s.count("mineral");
   for (std::size_t i = 0; i < count; ++i) {
     const auto key = [i](const char* name) { return fmt::format("mineral[{}].{}", i, name); };
@@ -128,6 +144,16 @@ Settings read_settings(const Scenario& s, TestKind test) {
     throw s.error(fmt::format("mineral[{}].share", count - 1), fmt::format("the shares of the minerals add to {:.6g} %", 100 * sum),
                   "they must add to 100 %");
   }
+  if (!only.empty()) {
+    std::vector<std::string> names;
+    for (const Mineral& m : r.minerals) names.push_back(m.name);
+    std::erase_if(r.minerals, [&](const Mineral& m) { return m.name != only; });
+    if (r.minerals.empty()) {
+      throw s.error("texture.only_mineral", "there is no mineral '" + only + "'", fmt::format("given are {}", fmt::join(names, ", ")));
+    }
+    r.minerals.front().share = 1;
+    r.one_mineral = true;
+  }
   r.interaction = {s.real("interaction.modulus"),          s.real("interaction.stiffness_ratio"),
                    s.real("interaction.friction"),         s.real("interaction.tensile_strength"),
                    s.real("interaction.cohesion"),         s.real("interaction.friction_angle")};
@@ -135,7 +161,7 @@ Settings read_settings(const Scenario& s, TestKind test) {
   r.seed_scale = s.real("texture.seed_scale");
   r.growth = s.text("texture.growth") == "deepest_contact" ? GrowthRule::deepest_contact : GrowthRule::most_contacts;
   r.joint_modulus = s.text("texture.flat_joint_modulus") == "sum" ? JointModulus::sum : JointModulus::linear;
-  r.same_mineral_boundaries = s.boolean("texture.same_mineral_boundaries");
+  r.same_mineral_boundaries = s.boolean("texture.same_mineral_boundaries") && !r.one_mineral;
   r.damping = s.real("solver.damping");
   r.time_step_factor = s.real("solver.time_step_factor");
   const bool compression = test == TestKind::compression;
@@ -145,6 +171,9 @@ Settings read_settings(const Scenario& s, TestKind test) {
   r.stop = s.real(group + "stop");
   r.sample_strain = s.real(group + "sample_strain");
   r.strain_limit = s.real("compression.strain_limit");
+  r.follow = s.real("compression.follow");
+  r.confining_pressure = compression ? s.real("compression.confining_pressure") : 0;
+  r.confining_step = s.real("compression.confining_step");
   r.grip = s.real("direct_tension.grip");
   if (r.sample_strain < r.rate) {
     throw s.error(group + "sample_strain", "samples are closer than steps", "write at least the value of " + group + "rate");

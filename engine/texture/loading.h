@@ -1,6 +1,10 @@
 #pragma once
-// Uniaxial compression between frictionless platens and direct tension between grips: one test on one specimen, from the
-// first step to its stopping rule. The state is whole: a cut test goes on to the same bits.
+// Compression between frictionless platens, with or without confining pressure, and direct tension between grips: one test
+// on one specimen, from the first step to its stopping rule. The state is whole: a cut test goes on to the same bits.
+//
+// A confined test begins with the rise of an isotropic pressure on platens and jacket; strains count from its end, stresses
+// are forces over the section at that time, and the history begins there. The energy account counts from the beginning.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,18 +27,20 @@ class LoadingTest {
  public:
   LoadingTest(const Specimen& specimen, const Settings& settings, int threads);
 
-  /// Goes on to the next sample. False when the test has ended. Throws CaseError when the motion has blown up.
+  /// Goes on to the next sample, or further into the isotropic stage, which has no samples. False when the test has ended. Throws CaseError when the motion has blown up.
   bool advance();
   [[nodiscard]] bool ended() const { return ended_; }
   [[nodiscard]] double fraction() const;  ///< rough share of the test that is done
 
   [[nodiscard]] const std::vector<HistoryRow>& history() const { return history_; }
+  /// The row at which the test ended by its stopping rule; it may have been followed further. Absent before.
+  [[nodiscard]] std::optional<std::size_t> end() const;
   [[nodiscard]] const std::vector<Frame>& frames() const { return frames_; }
   [[nodiscard]] const Assembly& assembly() const { return assembly_; }
 
   template <class Archive>
   void archive(Archive& a) {
-    a(assembly_, history_, frames_, counted_, crack_counts_, ended_);
+    a(assembly_, gauge_, start_, history_, frames_, counted_, crack_counts_, isotropic_steps_, area_, height_, ended_);
   }
 
  private:
@@ -46,7 +52,11 @@ class LoadingTest {
   std::vector<Frame> frames_;
   std::int64_t counted_ = 0;  ///< cracks that are in crack_counts_
   std::array<double, 4> crack_counts_{};
+  std::int64_t isotropic_steps_ = 0;  ///< that are left
+  double area_ = 0, height_ = 0;      ///< of the specimen when the test proper begins, m^2, m
   bool ended_ = false;
+
+  void begin();
 };
 
 }  // namespace dem::texture

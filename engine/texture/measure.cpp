@@ -55,15 +55,17 @@ double axial_stiffness(const std::vector<HistoryRow>& h, std::size_t row) {
                         : std::numeric_limits<double>::quiet_NaN();
 }
 
-Characteristics characterise(const std::vector<HistoryRow>& h, double departure, bool compression) {
+Characteristics characterise(const std::vector<HistoryRow>& h, double departure, bool compression,
+                             double confining_pressure) {
   Characteristics c;
   if (h.size() < 3) return c;
   for (std::size_t i = 0; i < h.size(); ++i) {
     if (h[i].axial_stress > h[c.peak].axial_stress) c.peak = i;
   }
-  const double peak = h[c.peak].axial_stress;
-  const std::size_t low = first_above(h, c.peak, 0.10 * peak), middle = first_above(h, c.peak, 0.25 * peak);
-  const std::size_t high = first_above(h, c.peak, 0.30 * peak), half = first_above(h, c.peak, 0.50 * peak);
+  const auto at_share = [&](double share) {
+    return first_above(h, c.peak, confining_pressure + share * (h[c.peak].axial_stress - confining_pressure));
+  };
+  const std::size_t low = at_share(0.10), middle = at_share(0.25), high = at_share(0.30), half = at_share(0.50);
   if (high > low + 1) {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (std::size_t i = low; i <= high; ++i) {
@@ -114,7 +116,7 @@ Characteristics characterise(const std::vector<HistoryRow>& h, double departure,
     // Elastic part with the early lateral ratio: the crack volumetric strain is what is left.
     const double early = -h[high].lateral_strain / h[high].axial_strain;
     const auto crack_volume = [&](std::size_t i) {
-      return h[i].volumetric_strain() - (1 - 2 * early) / *c.young_modulus * h[i].axial_stress;
+      return h[i].volumetric_strain() - (1 - 2 * early) / *c.young_modulus * (h[i].axial_stress - confining_pressure);
     };
     std::size_t turn = low;
     for (std::size_t i = low; i <= c.peak; ++i) {

@@ -18,6 +18,7 @@ struct HistoryRow {
   double platen_strain = 0, axial_strain = 0, lateral_strain = 0;
   double axial_stress = 0;           ///< mean of both ends over the initial area
   double stress_imbalance = 0;       ///< difference of both ends
+  double confining_pressure = 0;     ///< of the jacket on the specimen
   std::array<double, 4> cracks{};    ///< intra tension, intra shear, inter tension, inter shear
   Ledger ledger;
   [[nodiscard]] double volumetric_strain() const { return axial_strain + 2 * lateral_strain; }
@@ -28,10 +29,17 @@ class StrainGauge {
  public:
   /// Particles whose distance from mid-height is at most half of `length` (m).
   StrainGauge(const std::vector<Vec3>& position, double height, double length);
+  /// Counts from these positions from now on.
+  void restart(const std::vector<Vec3>& position) { start_ = position; }
   struct Strains {
     double axial = 0, lateral = 0;  ///< tension positive
   };
   [[nodiscard]] Strains read(const std::vector<Row8>& poses) const;
+
+  template <class Archive>
+  void archive(Archive& a) {
+    a(start_, inside_);
+  }
 
  private:
   std::vector<Vec3> start_;
@@ -50,8 +58,10 @@ struct Characteristics {
   std::optional<std::size_t> damage;         ///< row: largest volumetric strain before the peak
 };
 
-/// `departure`: share by which the axial stiffness must leave its plateau (mean over 10 to 25 % of the peak).
-Characteristics characterise(const std::vector<HistoryRow>& history, double departure, bool compression);
+/// `departure`: share by which the axial stiffness must leave its plateau (mean over 10 to 25 % of the peak). Shares of the
+/// peak are counted from the confining pressure (Pa), where the test starts.
+Characteristics characterise(const std::vector<HistoryRow>& history, double departure, bool compression,
+                             double confining_pressure = 0);
 
 /// Axial stiffness of Eq. 9: (sigma - sigma_0) / (epsilon - epsilon_0), from the first row; NaN below a strain of 5e-5.
 double axial_stiffness(const std::vector<HistoryRow>& history, std::size_t row);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 
 #include "engine/core/archive.h"
 #include "engine/texture/keys.h"
@@ -15,7 +16,7 @@ namespace dem::texture {
 namespace {
 
 // Raised whenever results change.
-constexpr std::string_view physics_version = "grain_texture 2";
+constexpr std::string_view physics_version = "grain_texture 3";
 
 // 1 -> "1", 1.5 -> "1_5", 0.675 -> "0_675"
 std::string word(double value) {
@@ -24,28 +25,44 @@ std::string word(double value) {
   return text;
 }
 
-/// One specimen of the scenario.
+/// One specimen of the scenario, and the pressure that it is tested under.
 struct Variant {
-  double aspect_ratio = 1, seed_scale = 1;
-  std::string growth;
+  double aspect_ratio = 1, dip = 0, seed_scale = 1;  ///< -, rad, -
+  std::string growth, only_mineral;
+  double confining_pressure = 0;                     ///< Pa
+  std::int64_t seed = 1;
   friend bool operator==(const Variant&, const Variant&) = default;
 };
 
+constexpr double degrees = 57.295779513082323;
+// Without the rounding noise of conversions, so that ids and axes read "30" and not "29.999999999999996".
+double tidy(double value) { return std::round(value * 1e9) / 1e9; }
+
+std::string underlined(std::string text) {
+  std::replace(text.begin(), text.end(), ' ', '_');
+  return text;
+}
+
 CaseSpec make_case(const Scenario& base, const std::string& test, const Variant& v) {
-  CaseSpec spec{test + "_ar_" + word(v.aspect_ratio), base.with("texture.aspect_ratio", v.aspect_ratio), {}, {}};
-  spec.scenario = spec.scenario.with("texture.seed_scale", v.seed_scale).with("texture.growth", v.growth);
+  const double dip = tidy(v.dip * degrees), pressure = tidy(v.confining_pressure * 1e-6);
+  const bool one_mineral = !v.only_mineral.empty();
+  CaseSpec spec{test + "_" + (one_mineral ? underlined(v.only_mineral) : "ar_" + word(v.aspect_ratio)),
+                base.with("texture.aspect_ratio", v.aspect_ratio), {}, {}};
+  spec.scenario = spec.scenario.with("texture.seed_scale", v.seed_scale).with("texture.growth", v.growth)
+                      .with("texture.dip", v.dip).with("texture.only_mineral", v.only_mineral)
+                      .with("compression.confining_pressure", v.confining_pressure).with("seed", v.seed);
+  if (!base.reals("sweep.dip").empty() || v.dip != 0) spec.id += "_dip_" + word(dip);
+  if (pressure > 0) spec.id += "_sigma3_" + word(pressure);
   if (v.seed_scale != base.real("texture.seed_scale")) spec.id += "_seed_scale_" + word(v.seed_scale);
   if (v.growth != base.text("texture.growth")) spec.id += "_" + v.growth;
+  if (v.seed != static_cast<std::int64_t>(base.seed())) spec.id += fmt::format("_seed_{}", v.seed);
   const std::vector<std::string> prefixes = {"seed", "specimen.", "packing.", "mineral[", "interaction.",
                                              "texture.", "solver.", "measure.", test + "."};
   spec.content = fmt::format("model = grain_texture\nphysics = {}\ntest = {}\n{}", physics_version, test,
                              spec.scenario.canonical(prefixes));
-  constexpr double degrees = 57.295779513082323;
-  spec.parameters = {{"test", test},
-                     {"aspect_ratio", v.aspect_ratio},
-                     {"dip", std::round(spec.scenario.real("texture.dip") * degrees * 1e9) / 1e9},
-                     {"seed_scale", v.seed_scale},
-                     {"growth", v.growth}};
+  spec.parameters = {{"test", test},           {"aspect_ratio", v.aspect_ratio}, {"dip", dip},
+                     {"seed_scale", v.seed_scale}, {"growth", v.growth},         {"mineral", v.only_mineral},
+                     {"confining_pressure_MPa", pressure}, {"seed", static_cast<double>(v.seed)}};
   return spec;
 }
 
@@ -53,22 +70,50 @@ TestKind kind_of(const std::string& test) {
   return test == "compression" ? TestKind::compression : TestKind::direct_tension;
 }
 
-std::vector<CaseSpec> cases(const Scenario& scenario) {
+std::vector<double> swept(const Scenario& s, const std::string& sweep, const std::string& single) {
+  const std::vector<double>& values = s.reals(sweep);
+  return values.empty() ? std::vector<double>{s.real(single)} : values;
+}
+
+/// Every combination of what is swept; repeats innermost, so that the specimens of one kind stand together.
+std::vector<Variant> variants_of(const Scenario& s) {
   std::vector<Variant> variants;
-  const auto add = [&](Variant v, const std::string& key) {
+  const auto add = [&](const Variant& v, const std::string& key) {
     if (std::find(variants.begin(), variants.end(), v) != variants.end()) {
-      throw scenario.error(key, "the same specimen is asked for twice", "give each specimen once");
+      throw s.error(key, "the same specimen is asked for twice", "give each specimen once");
     }
-    variants.push_back(std::move(v));
+    variants.push_back(v);
   };
-  for (const double ar : scenario.reals("sweep.aspect_ratio")) {
-    add({ar, scenario.real("texture.seed_scale"), scenario.text("texture.growth")}, "sweep.aspect_ratio");
+  const auto repeats = s.integer("repeats");
+  const auto add_repeats = [&](Variant v, const std::string& key) {
+    for (std::int64_t k = 0; k < repeats; ++k) {
+      v.seed = static_cast<std::int64_t>(s.seed()) + k;
+      add(v, key);
+    }
+  };
+  std::vector<std::string> minerals = s.texts("sweep.mineral");
+  if (minerals.empty()) minerals.push_back(s.text("texture.only_mineral"));
+  for (const std::string& mineral : minerals) {
+    for (const double ar : swept(s, "sweep.aspect_ratio", "texture.aspect_ratio")) {
+      for (const double dip : swept(s, "sweep.dip", "texture.dip")) {
+        for (const double pressure : swept(s, "sweep.confining_pressure", "compression.confining_pressure")) {
+          add_repeats({ar, dip, s.real("texture.seed_scale"), s.text("texture.growth"), mineral, pressure, 1},
+                      s.reals("sweep.dip").empty() ? "sweep.aspect_ratio" : "sweep.dip");
+        }
+      }
+    }
   }
-  for (std::size_t i = 0; i < scenario.count("extra"); ++i) {
+  for (std::size_t i = 0; i < s.count("extra"); ++i) {
     const auto key = [i](const char* name) { return fmt::format("extra[{}].{}", i, name); };
-    add({scenario.real(key("aspect_ratio")), scenario.real(key("seed_scale")), scenario.text(key("growth"))},
-        key("aspect_ratio"));
+    add_repeats({s.real(key("aspect_ratio")), s.real("texture.dip"), s.real(key("seed_scale")), s.text(key("growth")),
+                 s.text("texture.only_mineral"), s.real("compression.confining_pressure"), 1},
+                key("aspect_ratio"));
   }
+  return variants;
+}
+
+std::vector<CaseSpec> cases(const Scenario& scenario) {
+  const std::vector<Variant> variants = variants_of(scenario);
   const std::vector<std::string>& tests = scenario.texts("tests");
   std::vector<CaseSpec> list;
   for (const std::string& test : tests) {
@@ -76,7 +121,13 @@ std::vector<CaseSpec> cases(const Scenario& scenario) {
       throw scenario.error("tests", "'" + test + "' is named twice", "name each test once");
     }
     for (const Variant& v : variants) {
-      list.push_back(make_case(scenario, test, v));
+      Variant tested = v;
+      if (test == "direct_tension") {  // has no confining pressure
+        tested.confining_pressure = 0;
+      }
+      CaseSpec made = make_case(scenario, test, tested);
+      if (test == "direct_tension" && std::ranges::find(list, made.id, &CaseSpec::id) != list.end()) continue;
+      list.push_back(std::move(made));
       (void)read_settings(list.back().scenario, kind_of(test));
     }
   }
@@ -87,7 +138,9 @@ Record run(const CaseSpec& spec, RunContext& context) {
   const TestKind kind = kind_of(std::get<std::string>(spec.parameters.front().second));
   const Settings settings = read_settings(spec.scenario, kind);
   const Specimen specimen = make_specimen(settings, context);
-  LoadingTest test(specimen, settings, context.threads);
+  // Two threads pay from some thousand particles on: below, they mostly wait for each other.
+  const int threads = std::clamp(static_cast<int>(specimen.packing.radius.size() / 2000), 1, std::max(1, context.threads));
+  LoadingTest test(specimen, settings, threads);
   if (!context.checkpoint.empty()) {
     LoadingTest loaded = test;
     std::string bytes;
@@ -105,6 +158,10 @@ Record run(const CaseSpec& spec, RunContext& context) {
     }
     if (stop) throw Interrupted{};
     test.advance();
+    if (test.history().empty()) {
+      context.report({"confining pressure", test.assembly().step(), 0, 0, spec.scenario.real("compression.confining_pressure")});
+      continue;
+    }
     const HistoryRow& row = test.history().back();
     context.report({compression ? "compression" : "direct tension", static_cast<std::int64_t>(row.step), test.fraction(),
                     row.platen_strain, row.axial_stress});

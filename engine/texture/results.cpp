@@ -11,6 +11,7 @@ namespace {
 
 constexpr double residual_limit = 1e-2;     // of max(W, 1e-2 W_peak)
 constexpr double imbalance_limit = 0.01;    // difference of the two ends over the peak stress, root mean square
+constexpr double servo_limit = 0.01;
 constexpr double mega = 1e-6, giga = 1e-9;
 
 std::string words(std::string text) {
@@ -93,10 +94,12 @@ double strain_at(const std::vector<HistoryRow>& h, double step) {
   return before->axial_strain + f * (after->axial_strain - before->axial_strain);
 }
 
-Table crack_table(const Specimen& specimen, const LoadingTest& test) {
+// Cracks up to the end of the test; those of a test that was followed further are in its history.
+Table crack_table(const Specimen& specimen, const LoadingTest& test, double last_step) {
   std::vector<double> time, strain, position, normal, area;
   std::vector<std::int32_t> mode, place, mineral_a, mineral_b, contact;
   for (const Crack& c : test.assembly().cracks()) {
+    if (c.step > last_step) break;
     const BondSpec& bond = specimen.bonds[static_cast<std::size_t>(c.contact)];
     const auto mineral = [&](std::int32_t p) { return specimen.grains.mineral[static_cast<std::size_t>(p)]; };
     time.push_back(c.step * test.assembly().time_step());
@@ -139,6 +142,7 @@ Table history_table(const std::vector<HistoryRow>& h) {
   column("volumetric_strain", "1", [&](std::size_t i) { return h[i].volumetric_strain(); });
   column("axial_stress", "Pa", [&](std::size_t i) { return h[i].axial_stress; });
   column("stress_imbalance", "Pa", [&](std::size_t i) { return h[i].stress_imbalance; });
+  column("confining_pressure", "Pa", [&](std::size_t i) { return h[i].confining_pressure; });
   column("axial_stiffness", "Pa", [&](std::size_t i) { return axial_stiffness(h, i); });
   const char* classes[] = {"cracks_intra_tension", "cracks_intra_shear", "cracks_inter_tension", "cracks_inter_shear"};
   for (std::size_t k = 0; k < 4; ++k) column(classes[k], "1", [&](std::size_t i) { return h[i].cracks[k]; });
@@ -156,7 +160,7 @@ Table history_table(const std::vector<HistoryRow>& h) {
 double cracks_in(const HistoryRow& r) { return r.cracks[0] + r.cracks[1] + r.cracks[2] + r.cracks[3]; }
 
 // Named moments, each with the nearest kept frame.
-void add_snapshots(Record& record, const LoadingTest& test, const Characteristics& c, bool compression) {
+void add_snapshots(Record& record, const LoadingTest& test, const Characteristics& c, bool compression, std::size_t end) {
   const std::vector<HistoryRow>& h = test.history();
   std::vector<std::pair<std::string, std::size_t>> moments;
   const auto stress_row = [&](double stress) {
@@ -174,13 +178,13 @@ void add_snapshots(Record& record, const LoadingTest& test, const Characteristic
     moments.emplace_back("unstable_growth", stress_row(0.5 * (damage + peak)));
   }
   moments.emplace_back("peak", c.peak);
-  for (std::size_t i = c.peak; i < h.size(); ++i) {
+  for (std::size_t i = c.peak; i <= end; ++i) {
     if (h[i].axial_stress <= 0.9 * h[c.peak].axial_stress) {
       moments.emplace_back("post_peak", i);
       break;
     }
   }
-  moments.emplace_back("end", h.size() - 1);
+  moments.emplace_back("end", end);
   for (std::size_t k = 0; k < moments.size(); ++k) {
     const auto& [name, row] = moments[k];
     const Frame* nearest = &test.frames().front();
@@ -215,7 +219,7 @@ void add_specimen_results(Record& record, const Specimen& specimen, const Settin
     (between_grains ? inter : intra)[{pair.first, pair.second}] += 1;
   }
   const auto contacts = static_cast<double>(specimen.bonds.size());
-  put("inter_grain_share", boundaries / contacts);
+  if (!settings.one_mineral) put("inter_grain_share", boundaries / contacts);
   put("coordination", specimen.packing.coordination);
   put("porosity", specimen.packing.porosity);
   std::vector<double> volume(settings.minerals.size(), 0);
@@ -238,13 +242,25 @@ void add_specimen_results(Record& record, const Specimen& specimen, const Settin
 Record make_record(const Specimen& specimen, const Settings& settings, const LoadingTest& test) {
   const bool compression = settings.test == TestKind::compression;
   const std::vector<HistoryRow>& h = test.history();
-  const Characteristics c = characterise(h, settings.stiffness_departure, compression);
+  const double confining = settings.confining_pressure;
+  const Characteristics c = characterise(h, settings.stiffness_departure, compression, confining);
+  const std::size_t end = test.end().value_or(h.size() - 1);
   Record record;
   const auto put = [&](const std::string& name, double value) { record.results.emplace_back(name, value); };
   if (c.young_modulus) put("young_modulus_GPa", *c.young_modulus * giga);
   if (c.poisson_ratio) put("poisson_ratio", *c.poisson_ratio);
-  put(compression ? "ucs_MPa" : "tensile_strength_MPa", h[c.peak].axial_stress * mega);
+  put(!compression ? "tensile_strength_MPa" : confining > 0 ? "confined_strength_MPa" : "ucs_MPa", h[c.peak].axial_stress * mega);
   put("peak_strain", h[c.peak].axial_strain);
+  if (settings.follow > 0 && compression) {
+    // Mean over the last twentieth of the strain.
+    double sum = 0, count = 0;
+    for (const HistoryRow& r : h) {
+      if (r.platen_strain < 0.95 * h.back().platen_strain) continue;
+      sum += r.axial_stress;
+      count += 1;
+    }
+    put("residual_over_peak", sum / count / h[c.peak].axial_stress);
+  }
   if (c.initiation_stiffness) {
     put("crack_initiation_MPa.axial_stiffness", h[*c.initiation_stiffness].axial_stress * mega);
     put("crack_initiation_strain.axial_stiffness", h[*c.initiation_stiffness].axial_strain);
@@ -260,7 +276,7 @@ Record make_record(const Specimen& specimen, const Settings& settings, const Loa
   }
   add_specimen_results(record, specimen, settings);
   const char* classes[] = {"intra_tension", "intra_shear", "inter_tension", "inter_shear"};
-  for (std::size_t k = 0; k < 4; ++k) put(std::string("cracks.") + classes[k], h.back().cracks[k]);
+  for (std::size_t k = 0; k < 4; ++k) put(std::string("cracks.") + classes[k], h[end].cracks[k]);
   for (std::size_t k = 0; k < 4; ++k) put(std::string("cracks_at_peak.") + classes[k], h[c.peak].cracks[k]);
 
   double peak_work = 0, residual = 0, squares = 0, largest = 0;
@@ -277,6 +293,11 @@ Record make_record(const Specimen& specimen, const Settings& settings, const Loa
     largest = std::max(largest, std::abs(share));
   }
   const double imbalance = std::sqrt(squares / static_cast<double>(c.peak + 1));
+  double servo = 0;
+  for (std::size_t i = 0; i <= end && confining > 0; ++i) {
+    servo = std::max(servo, std::abs(h[i].confining_pressure / confining - 1));
+  }
+  if (confining > 0) put("servo_error", servo);
   put("energy_residual", residual);
   put("stress_imbalance", imbalance);
   put("largest_stress_imbalance", largest);
@@ -294,12 +315,18 @@ Record make_record(const Specimen& specimen, const Settings& settings, const Loa
                            "Difference between the stresses at the two ends, root mean square of the samples up to the "
                            "peak, over the peak stress."});
 
+  if (confining > 0) {
+    record.checks.push_back({"servo", servo, servo_limit, servo <= servo_limit,
+                             "Largest departure of the confining pressure from its set value, as a share of it, over all "
+                             "samples to the end of the test."});
+  }
+
   record.tables.push_back(particle_table(specimen, settings));
   record.tables.push_back(grain_table(specimen, settings));
   record.tables.push_back(contact_table(specimen));
-  record.tables.push_back(crack_table(specimen, test));
+  record.tables.push_back(crack_table(specimen, test, h[end].step));
   record.tables.push_back(history_table(h));
-  add_snapshots(record, test, c, compression);
+  add_snapshots(record, test, c, compression, end);
   return record;
 }
 

@@ -69,6 +69,7 @@ AssemblyInput assembly_input(const Specimen& specimen, const Settings& settings)
   input.z_high = height;
   if (settings.test == TestKind::compression) {
     input.platens = true;
+    if (settings.confining_pressure > 0) input.jacket_radius = settings.packing.vessel.diameter / 2;
   } else {
     const double thickness = settings.grip * height;
     for (const Vec3& p : input.position) {
