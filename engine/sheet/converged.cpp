@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/errors.h"
+#include "engine/sheet/dense.h"
 #include "engine/sheet/patch.h"
 #include "engine/sheet/solver.h"
 #include "engine/sheet/stiffness.h"
@@ -37,7 +39,12 @@ struct ConvergedSolver::Impl {
   }
 
   void factorise(const Sheet& sheet, const Forces& forces) {
-    done.raised_pivots += factor.factorise(assemble(sheet, forces));
+    // A tangent that has lost its stiffness somewhere (pivots would be raised over and over, and grow without bound)
+    // gives way to the stable one: its steps still go down in energy, to the equilibrium beyond.
+    if (const int negative = factor.factorise(assemble(sheet, forces)); negative > 0) {
+      done.negative_pivots += negative;
+      factor.factorise(assemble(sheet, forces, Tangent::stable));
+    }
     ++done.factorisations;
     const auto slots = static_cast<std::size_t>(sheet.slots());
     held.assign(slots, 0);
@@ -236,6 +243,12 @@ struct ConvergedSolver::Impl {
     return solves;
   }
 
+  // The case ends rather than go on with what is no number: nothing after it could be trusted.
+  void require_finite() const {
+    if (!std::isfinite(dot(u.data(), u.data(), u.size())))
+      throw CaseError("the sheet lost its stiffness and no equilibrium was found; smaller load steps may help");
+  }
+
   // Moves along u; shortens the step while the energy would rise along it.
   void search(Sheet& sheet, Forces& forces) {
     const double before = forces.unbalanced;
@@ -269,6 +282,7 @@ struct ConvergedSolver::Impl {
       factor.solve(u);
       ++done.solves;
     }
+    require_finite();
     search(sheet, forces);
     return solves;
   }

@@ -32,7 +32,7 @@ inline __attribute__((always_inline)) double sum(const V4& v) { return (v[0] + v
 // Columns [k, k + w) of the front, rows from their diagonal down: left-looking inside the block.
 DEM_CLONES int factor_block(double* a, std::size_t ld, int k, int w, int nf, const double* diagonal, double floor_of,
                             double raised_to) {
-  int raised = 0;
+  int negative = 0;
   for (int j = k; j < k + w; ++j) {
     double* column = a + static_cast<std::size_t>(j) * ld;
     for (int p = k; p < j; ++p) {
@@ -43,8 +43,8 @@ DEM_CLONES int factor_block(double* a, std::size_t ld, int k, int w, int nf, con
     }
     double pivot = column[j];
     if (!(pivot > floor_of * diagonal[j])) {
+      if (pivot < -floor_of * diagonal[j]) ++negative;
       pivot = raised_to * diagonal[j];
-      ++raised;
     }
     const double root = std::sqrt(pivot);
     const double inverse = 1.0 / root;
@@ -52,7 +52,7 @@ DEM_CLONES int factor_block(double* a, std::size_t ld, int k, int w, int nf, con
 #pragma GCC ivdep
     for (int i = j + 1; i < nf; ++i) column[i] *= inverse;
   }
-  return raised;
+  return negative;
 }
 
 // a[first.., first..] -= P P^T (lower part), P packed in stripes of 8 rows, stripe by stripe, column by column.
@@ -191,11 +191,11 @@ DEM_CLONES double dot_of(const double* a, const double* b, std::size_t n) {
 }  // namespace
 
 int partial_cholesky(double* a, std::size_t ld, int ns, int nf, std::span<const double> diagonal, PivotRule rule) {
-  int raised = 0;
+  int negative = 0;
   std::vector<double> packed;
   for (int k = 0; k < ns; k += block) {
     const int w = std::min(block, ns - k);
-    raised += factor_block(a, ld, k, w, nf, diagonal.data(), rule.floor, rule.raised);
+    negative += factor_block(a, ld, k, w, nf, diagonal.data(), rule.floor, rule.raised);
     const int first = k + w;
     const int m = nf - first;
     if (m <= 0) continue;
@@ -211,7 +211,7 @@ int partial_cholesky(double* a, std::size_t ld, int ns, int nf, std::span<const 
     }
     update_trailing(a, ld, first, nf, w, packed.data());
   }
-  return raised;
+  return negative;
 }
 
 void panel_forward(const float* p, std::size_t ld, int ns, int nf, const double* inverse, double* t) {

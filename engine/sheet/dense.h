@@ -16,7 +16,8 @@ struct PivotRule {
 
 /// Factorises the leading `ns` columns of the symmetric front `a` (lower part, column by column, leading dimension
 /// `ld`, order `nf`) in place, a = L L^T, and subtracts their contribution from the rest. `diagonal` holds the ns
-/// diagonal entries before any elimination. Returns the number of raised pivots.
+/// diagonal entries before any elimination. Returns how many pivots were below minus
+/// `floor`: the matrix has directions of negative stiffness, and raising them makes the entries after them grow.
 int partial_cholesky(double* a, std::size_t ld, int ns, int nf, std::span<const double> diagonal, PivotRule rule);
 
 /// t[0..ns) = L_ss^-1 t[0..ns); t[ns..nf) -= L_bs t[0..ns). `inverse` holds 1 / L_jj.

@@ -83,7 +83,7 @@ class Factor {
  public:
   Factor(const Dissection& dissection, int threads);
 
-  /// Factorises `matrix`; returns the number of pivots raised by the rule.
+  /// Factorises `matrix`; returns the number of negative pivots (see partial_cholesky).
   int factorise(const BlockMatrix& matrix, PivotRule rule = {});
 
   /// y = L^-1 y for the nodes in `active` (a flag a node, closed towards the root); y is zero elsewhere and stays so.

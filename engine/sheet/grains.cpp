@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 
@@ -175,8 +176,9 @@ void fill_holes(std::vector<std::int32_t>& flynn, const Lattice& lattice) {
 
 }  // namespace
 
-ElleMap voronoi_map(const VoronoiSettings& settings) {
-  if (settings.grains < 4) throw InputError("a grown map needs at least 4 grains", "raise grains.count");
+namespace {
+
+std::vector<Outline> grown(const VoronoiSettings& settings) {
   RandomStream random(settings.seed, Purpose::sheet_grain_centres);
   std::vector<Point> centres;
   for (int g = 0; g < settings.grains; ++g) {
@@ -188,22 +190,54 @@ ElleMap voronoi_map(const VoronoiSettings& settings) {
     for (std::size_t g = 0; g < centres.size(); ++g) centres[g] = centroid(outlines[g]);
     outlines = cells(centres, settings);
   }
+  return outlines;
+}
+
+}  // namespace
+
+ElleMap voronoi_map(const VoronoiSettings& settings) {
+  if (settings.grains < 4) throw InputError("a grown map needs at least 4 grains", "raise grains.count");
   ElleMap map;
   map.high = {1, settings.height};
   Nodes nodes(map, settings.periodic, settings.height);
-  for (const Outline& cell : outlines) add_flynn(map, nodes, cell);
+  for (const Outline& cell : grown(settings)) add_flynn(map, nodes, cell);
   return map;
 }
 
-ElleMap layered_map(double height, double low, double high) {
+ElleMap layered_map(double height, double low, double high, const VoronoiSettings& grains) {
   ElleMap map;
   map.high = {1, height};
   Nodes nodes(map, false, height);
-  const auto band = [&](double from, double to) { add_flynn(map, nodes, {{0, from}, {1, from}, {1, to}, {0, to}}); };
-  band(0, low);
-  band(low, high);
-  band(high, height);
-  map.attributes.push_back({"MINERAL", "MATRIX", {{1, "LAYER"}}});
+  VoronoiSettings inside = grains;
+  inside.periodic = false;
+  inside.height = high - low;
+  std::vector<Outline> layer{{{0, 0}, {1, 0}, {1, inside.height}, {0, inside.height}}};
+  if (grains.grains > 1) layer = grown(inside);
+  // The matrix has the nodes of the layer's grains along their common edges.
+  Outline below{{0, 0}, {1, 0}}, above{{1, height}, {0, height}};
+  std::vector<double> lower, upper;
+  for (Outline& cell : layer) {
+    for (Point& p : cell) {
+      if (p[1] < 1e-9 * height) lower.push_back(p[0]);
+      if (p[1] > inside.height - 1e-9 * height) upper.push_back(p[0]);
+      p[1] += low;
+    }
+  }
+  std::sort(lower.begin(), lower.end(), std::greater<>());
+  std::sort(upper.begin(), upper.end());
+  const auto same = [](double a, double b) { return std::fabs(a - b) < 1e-9; };
+  lower.erase(std::unique(lower.begin(), lower.end(), same), lower.end());
+  upper.erase(std::unique(upper.begin(), upper.end(), same), upper.end());
+  for (const double x : lower) below.push_back({x, low});
+  for (const double x : upper) above.push_back({x, high});
+  add_flynn(map, nodes, below);
+  ElleAttribute mineral{"MINERAL", "MATRIX", {}};
+  for (const Outline& cell : layer) {
+    mineral.values.emplace_back(static_cast<int>(map.flynns.size()), "LAYER");
+    add_flynn(map, nodes, cell);
+  }
+  add_flynn(map, nodes, above);
+  map.attributes.push_back(std::move(mineral));
   return map;
 }
 

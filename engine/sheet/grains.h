@@ -19,8 +19,9 @@ struct VoronoiSettings {
 
 /// A Voronoi map of random centres, as an Elle map with shared nodes.
 ElleMap voronoi_map(const VoronoiSettings& settings);
-/// Horizontal bands: matrix below, layer, matrix above (flynns 0, 1, 2; MINERAL MATRIX and LAYER).
-ElleMap layered_map(double height, double layer_low, double layer_high);
+/// Horizontal bands: matrix below (flynn 0), a layer, matrix above (the last flynn); MINERAL MATRIX and LAYER. The
+/// layer is one grain, or is grown of `grains.grains` Voronoi cells cut at its edges when that is more than one.
+ElleMap layered_map(double height, double layer_low, double layer_high, const VoronoiSettings& grains = {.grains = 1});
 /// Marks `count` grains away from the box's edge, drawn at random, as expanding (EXPAND 1, MINERAL `mineral`).
 void mark_expanding(ElleMap& map, int count, const std::string& mineral, std::uint64_t seed);
 

@@ -35,6 +35,7 @@ std::vector<Key> declare() {
       Key{"grains.periodic", boolean, "", -inf, inf, {}, "true", "grown grains go on over the box's edge, as in Elle"},
       number("grains.layer_low", 0, 1, "0.45", "lower edge of the layer, share of the height"),
       number("grains.layer_high", 0, 1, "0.55", "upper edge of the layer, share of the height"),
+      whole("grains.layer_grains", 1, 100000, "1", "grains that the layer is grown of, cut at its edges"),
       whole("grains.expanding", 0, 10000, "0", "grown grains inside the box that are marked EXPAND 1, drawn at random"),
       word("grains.expanding_mineral", {}, "\"GARNET\"", "MINERAL of those grains; all others are MATRIX"),
       word("rule[].attribute", {}, "", "attribute of the grain map, like MINERAL"),
@@ -105,6 +106,11 @@ Settings read_settings(const Scenario& s) {
     throw s.error("grains.layer_high", fmt::format("the layer goes from {:g} to {:g}", r.layer_low, r.layer_high),
                   "its edges rise and lie inside 0 ... 1");
   }
+  r.layer_grains = static_cast<int>(s.integer("grains.layer_grains"));
+  if (r.layer_grains > 1 && r.source != "layers") {
+    throw s.error("grains.layer_grains", "there is no layer with source \"" + r.source + "\"",
+                  "write grains.source = \"layers\", or grains.count for grown grains");
+  }
   r.expanding = static_cast<int>(s.integer("grains.expanding"));
   r.expanding_mineral = s.text("grains.expanding_mineral");
   for (std::size_t i = 0; i < s.count("rule"); ++i) {
@@ -167,7 +173,9 @@ namespace {
 ElleMap grown_map(const Settings& settings, const Sheet& sheet) {
   const double height = 2 * sheet.radius0 + sheet.y.back() - sheet.y.front();
   if (settings.source == "layers") {
-    return layered_map(height, settings.layer_low * height, settings.layer_high * height);
+    VoronoiSettings layer = settings.voronoi;
+    layer.grains = settings.layer_grains;
+    return layered_map(height, settings.layer_low * height, settings.layer_high * height, layer);
   }
   VoronoiSettings voronoi = settings.voronoi;
   voronoi.height = height;

@@ -20,6 +20,7 @@ struct Settings {
   std::filesystem::path file;  ///< of the Elle map
   VoronoiSettings voronoi;
   double layer_low = 0, layer_high = 0;  ///< box widths, of "layers"
+  int layer_grains = 1;
   int expanding = 0;
   std::string expanding_mineral;
   struct Rule {

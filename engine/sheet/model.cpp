@@ -129,7 +129,7 @@ class Run {
     const SolverWork& before = kept_.work;
     w.relaxations += before.relaxations, w.solves += before.solves, w.patches += before.patches;
     w.factorisations += before.factorisations, w.changes += before.changes, w.searches += before.searches;
-    w.raised_pivots += before.raised_pivots;
+    w.negative_pivots += before.negative_pivots;
     return w;
   }
 
@@ -142,7 +142,7 @@ class Run {
       // The factor that was made again has been counted before.
       kept_.work.factorisations -= solver().work().factorisations;
       kept_.work.changes -= solver().work().changes;
-      kept_.work.raised_pivots -= solver().work().raised_pivots;
+      kept_.work.negative_pivots -= solver().work().negative_pivots;
     }
   }
 

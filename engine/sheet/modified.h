@@ -12,7 +12,7 @@ class ModifiedFactor {
  public:
   ModifiedFactor(const Dissection& dissection, int threads) : factor_(dissection, threads) {}
 
-  /// Takes a new K0 and forgets all changes; returns the number of raised pivots.
+  /// Takes a new K0 and forgets all changes; returns the number of negative pivots.
   int factorise(const BlockMatrix& matrix, PivotRule rule = {});
 
   /// Adds c b b^T with b = (n at particle i, -n at particle j), entries along held directions left out.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/sheet/dense.h"
 #include "engine/sheet/stiffness.h"
 
 namespace dem::sheet {
@@ -115,7 +116,7 @@ void Patches::relax(Sheet& sheet, Forces& forces, const PatchBox& box, double sm
   double open = largest();
   bool stale = true;
   for (int iteration = 0; iteration < most_iterations && open > small; ++iteration) {
-    if (stale) {
+    const auto factorise = [&](Tangent tangent) {
       for (int i = 0; i < n; ++i) {
         const auto p = global(i);
         Block sum{0, 0, 0};
@@ -125,7 +126,7 @@ void Patches::relax(Sheet& sheet, Forces& forces, const PatchBox& box, double sm
           const int j = sheet.lattice.neighbour(static_cast<int>(p), d);
           if (j < 0) continue;
           const int slot = slot_between(sheet, static_cast<int>(p), d, j);
-          const Block b = tangent_block(sheet, forces, slot);
+          const Block b = tangent_block(sheet, forces, slot, tangent);
           for (std::size_t q = 0; q < 3; ++q) sum[q] += b[q];
           stiffest = std::max(stiffest, sheet.stiffness[static_cast<std::size_t>(slot)]);
           springs += active(sheet, forces, slot) ? 1 : 0;
@@ -135,8 +136,9 @@ void Patches::relax(Sheet& sheet, Forces& forces, const PatchBox& box, double sm
         local.matrix.diagonal[static_cast<std::size_t>(i)] = sum;
         local.matrix.fixed[static_cast<std::size_t>(i)] = sheet.fixed[p];
       }
-      local.factor.factorise(local.matrix);
-    }
+      return local.factor.factorise(local.matrix);
+    };
+    if (stale && factorise(Tangent::exact) > 0) factorise(Tangent::stable);
     double most = 0;
     for (int at = 0; at < n; ++at) {
       const auto p = global(local.dissection.order[static_cast<std::size_t>(at)]);
@@ -146,6 +148,7 @@ void Patches::relax(Sheet& sheet, Forces& forces, const PatchBox& box, double sm
     local.factor.forward(local.u, local.active);
     local.factor.backward(local.u);
     for (const double u : local.u) most = std::max(most, std::fabs(u));
+    if (!std::isfinite(dot(local.u.data(), local.u.data(), local.u.size()))) return;
     const double longest = longest_step * sheet.radius0;
     const double share = most > longest ? longest / most : 1.0;
     const auto step = [&](double part) {

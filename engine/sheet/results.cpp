@@ -186,6 +186,26 @@ void add_peak(Record& record, const Experiment& experiment) {
   record.results.emplace_back("breaks_before_peak", before);
 }
 
+// How abruptly the sheet fails: what one load step takes of all broken springs, and of the largest tension on the
+// walls.
+void add_abruptness(Record& record, const Experiment& experiment) {
+  double peak = 0, strain = 0, lost = 0;
+  int before = 0, most = 0;
+  for (const Sample& s : experiment.state().samples) {
+    const double loaded = std::max(s.peak_xx, s.peak_yy);
+    if (loaded > peak) peak = loaded, strain = s.strain;
+    lost = std::max(lost, loaded - (s.peak_xx > s.peak_yy ? s.stress_xx : s.stress_yy));
+    most = std::max(most, s.breaks - before);
+    before = s.breaks;
+  }
+  record.results.emplace_back("most_breaks_in_a_step", most);
+  if (before > 0) record.results.emplace_back("worst_step_share", static_cast<double>(most) / before);
+  if (peak <= 0) return;
+  record.results.emplace_back("peak_tension_dimensionless", peak);
+  record.results.emplace_back("strain_at_peak_tension", strain);
+  record.results.emplace_back("largest_drop_share", lost / peak);
+}
+
 void add_checks(Record& record, const Settings& settings, const Experiment& experiment) {
   const auto& e = experiment.state().equilibrium;
   if (settings.solver == "converged") {
@@ -243,9 +263,7 @@ void add_results(Record& record, const Settings& settings, const Specimen& speci
   put("onset_strain", total > 0 ? breaks.front().step * settings.loading.step : nan);
   add_peak(record, experiment);
   put("final_strain", experiment.strain());
-  std::vector<int> per_step(static_cast<std::size_t>(experiment.state().step) + 1, 0);
-  for (const Break& b : breaks) ++per_step[static_cast<std::size_t>(b.step)];
-  put("most_breaks_in_a_step", *std::max_element(per_step.begin(), per_step.end()));
+  add_abruptness(record, experiment);
   const std::vector<double> trend = trends(breaks, 2 * specimen.sheet.radius0);
   if (settings.loading.kind == LoadingKind::growth) {
     put("radial_share", share_along(trend, radial(specimen, breaks)));
@@ -262,7 +280,7 @@ void add_results(Record& record, const Settings& settings, const Specimen& speci
     put("spacing_scatter", c.scatter);
   }
   put("energy_residual", experiment.energy_residual());
-  put("unbalanced_force_share", experiment.state().equilibrium.worst);
+  put("unbalanced_force_dimensionless", experiment.state().equilibrium.worst);
   put("load_steps", experiment.state().step);
   put("solver.relaxations", static_cast<double>(work.relaxations));
   put(settings.solver == "converged" ? "solver.solves" : "solver.sweeps", static_cast<double>(work.solves));

@@ -9,17 +9,18 @@ constexpr double tether = 1e-3;
 
 }  // namespace
 
-Block tangent_block(const Sheet& s, const Forces& f, int slot) {
+Block tangent_block(const Sheet& s, const Forces& f, int slot, Tangent tangent) {
   if (!active(s, f, slot)) return {0, 0, 0};
   const auto k = static_cast<std::size_t>(slot);
   const auto i = static_cast<std::size_t>(s.first(slot)), j = static_cast<std::size_t>(s.second(slot));
   const double d = f.length[k];
   const double nx = (s.x[j] - s.x[i]) / d, ny = (s.y[j] - s.y[i]) / d;
-  const double g = f.tension[k] / d, along = s.stiffness[k] - g;
+  const double true_g = f.tension[k] / d, g = tangent == Tangent::stable ? std::max(true_g, 0.0) : true_g;
+  const double along = s.stiffness[k] - g;
   return {along * nx * nx + g, along * nx * ny, along * ny * ny + g};
 }
 
-BlockMatrix assemble(const Sheet& s, const Forces& f) {
+BlockMatrix assemble(const Sheet& s, const Forces& f, Tangent tangent) {
   const auto n = static_cast<std::size_t>(s.particles());
   BlockMatrix m;
   m.diagonal.assign(n, {0, 0, 0});
@@ -30,7 +31,7 @@ BlockMatrix assemble(const Sheet& s, const Forces& f) {
   for (int slot = 0; slot < s.slots(); ++slot) {
     const auto k = static_cast<std::size_t>(slot);
     if (s.stiffness[k] <= 0) continue;
-    const Block b = tangent_block(s, f, slot);
+    const Block b = tangent_block(s, f, slot, tangent);
     const bool on = active(s, f, slot);
     for (const int p : {s.first(slot), s.second(slot)}) {
       const auto i = static_cast<std::size_t>(p);

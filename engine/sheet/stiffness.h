@@ -12,12 +12,16 @@ inline bool active(const Sheet& sheet, const Forces& forces, int slot) {
   return sheet.stiffness[k] > 0 && (sheet.joined[k] || forces.tension[k] < 0);
 }
 
+/// `stable` leaves out the second term where it is compression: then no direction has a negative stiffness, as one may
+/// have in the exact tangent of a sheet that buckles.
+enum class Tangent { exact, stable };
+
 /// The block of one slot (positive: its share of the diagonal).
-Block tangent_block(const Sheet& sheet, const Forces& forces, int slot);
+Block tangent_block(const Sheet& sheet, const Forces& forces, int slot, Tangent tangent = Tangent::exact);
 
 /// Assembles the whole matrix. Particles left on two springs or fewer get a tether of a thousandth of their stiffest
 /// spring, so that the matrix can be factorised; the tether is no force, it only shortens steps along mechanisms.
-BlockMatrix assemble(const Sheet& sheet, const Forces& forces);
+BlockMatrix assemble(const Sheet& sheet, const Forces& forces, Tangent tangent = Tangent::exact);
 
 /// out = K v with the tangent of the present state (no tethers), zero along held directions.
 void apply_tangent(const Sheet& sheet, const Forces& forces, std::span<const double> vx, std::span<const double> vy,

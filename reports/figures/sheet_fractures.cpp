@@ -71,7 +71,7 @@ std::string rose(const std::vector<double>& angles, double reference, std::strin
   body += fmt::format("<text x=\"{}\" y=\"402\" text-anchor=\"middle\" font-size=\"14\" fill=\"#b04a00\">{}</text>", c,
                       reference_words);
   body +=
-      fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"12\" fill=\"#555\">{} springs</text>", c + 110, c - 120, most);
+      fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"12\" fill=\"#555\">circle: {}</text>", c + 116, c - 120, most);
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 380 412\" width=\"380\" height=\"412\" "
          "font-family=\"DejaVu Sans\">" +
          body + "</svg>";
@@ -127,6 +127,10 @@ FigureContent fracture_maps(const StudyResult& study) {
           : "A competent layer in compression breaks where springs are pulled across the compression; every break is "
             "tension.";
   for (const double strain : strains_of(*r)) content.panels.push_back(map_panel(study, *r, strain, 2));
+  if (!r->has_result("onset_strain")) {
+    content.finding = "No spring broke.";
+    return content;
+  }
   content.finding =
       fmt::format("{} springs broke, {} of them between grains; the first at a strain of {}.",
                   count(r->result("cracks.intra_tension") + r->result("cracks.inter_tension")),
@@ -146,7 +150,9 @@ FigureContent rose_of_fractures(const StudyResult& study) {
     const std::string label = label_of(*r, study);
     content.panels.push_back(
         {.id = r->case_id,
-         .caption = fmt::format("Trend of the fracture at each of {} broken springs, {}. Areas are counts.",
+         .caption = fmt::format("Trend of the fracture at each of {} broken springs, {}. Areas are counts; the outer "
+                                "circle is the fullest "
+                                "sector.",
                                 count(static_cast<double>(angles.size())), label),
          .alt = fmt::format("{} of the trends lie within 30° of the compression.", percent(share, 0)),
          .content = rose(angles, std::numbers::pi / 2, "direction of compression"),

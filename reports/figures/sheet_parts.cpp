@@ -46,7 +46,7 @@ std::string label_of(const dem::Record& record, const StudyResult& study) {
   std::string label;
   for (const dem::Record* other : records_of(study)) {
     if (other->number("spread") != record.number("spread")) {
-      label = "spread " + number(record.number("spread"), 3);
+      label = fmt::format("spread {:g}", record.number("spread"));
       break;
     }
   }

@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <set>
 
 #include "reports/figures/sheet_parts.h"
 #include "reports/figures/table.h"
@@ -62,13 +64,16 @@ render::Colour rising(double t) {
   return t < 0.5 ? between(low, middle, 2 * t) : between(middle, high, 2 * t - 1);
 }
 
-// The value below which nearly all lie: single springs at crack tips would take the whole scale.
-double most_of(std::span<const double> values) {
+// The size below which a share of the values lies: single springs at crack tips would take the whole scale.
+double size_at(std::span<const double> values, double share) {
   std::vector<double> size;
-  for (const double v : values) size.push_back(std::fabs(v));
-  const auto at = size.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(size.size() - 1));
+  for (const double v : values) {
+    if (std::isfinite(v)) size.push_back(std::fabs(v));
+  }
+  if (size.empty()) return 0;
+  const auto at = size.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(size.size() - 1));
   std::nth_element(size.begin(), at, size.end());
-  return std::max(*at, 1e-12);
+  return *at;
 }
 
 Panel field_panel(const dem::Record& r, const std::string& table, double strain, const std::string& column,
@@ -77,12 +82,15 @@ Panel field_panel(const dem::Record& r, const std::string& table, double strain,
   const auto place = r.table("particles").real("position");
   const dem::Table& t = r.table(table);
   const auto value = t.real(column), move = t.real("displacement");
-  const double scale = most_of(value);
+  const double scale = std::max(size_at(value, 0.99), 1e-12);
+  // Where all of the sheet is stressed much alike, colours begin at the least of it.
+  const double least = signed_values ? 0.0 : size_at(value, 0.01);
+  const double low = least > 0.3 * scale && least < scale ? least : 0.0;
   render::Spheres spheres;
   for (std::size_t i = 0; i < value.size(); ++i) {
     spheres.centre.push_back({place[2 * i] + move[2 * i], place[2 * i + 1] + move[2 * i + 1], 0});
     spheres.radius.push_back(1.1 * l.radius);
-    spheres.colour.push_back(signed_values ? diverging(value[i] / scale) : rising(value[i] / scale));
+    spheres.colour.push_back(signed_values ? diverging(value[i] / scale) : rising((value[i] - low) / (scale - low)));
   }
   Picture p;
   p.scene.spheres = {spheres};
@@ -94,14 +102,14 @@ Panel field_panel(const dem::Record& r, const std::string& table, double strain,
   p.label = words;
   for (const double share : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
     if (!signed_values && share < 0) continue;
-    p.legend.push_back(
-        {signed_values ? diverging(share) : rising(share), number(1e3 * share * scale, 3) + " × 10⁻³ k"});
+    p.legend.push_back({signed_values ? diverging(share) : rising(share),
+                        number(1e3 * (low + share * (scale - low)), 3) + " × 10⁻³ k"});
   }
   const auto range = std::minmax_element(value.begin(), value.end());
   return {
       .id = column + fmt::format("_{}", table.substr(table.size() - 4)),
-      .caption =
-          fmt::format("{} at {} %; colours end where 99 % of the particles lie.", words, number(100 * strain, 3)),
+      .caption = fmt::format("{} at {} %; colours cover all but the outermost hundredth of the particles.", words,
+                             number(100 * strain, 3)),
       .alt = fmt::format("Values go from {} to {} in units of k.", number(*range.first, 2), number(*range.second, 2)),
       .content = p,
       .per_row = 2};
@@ -115,7 +123,7 @@ FigureContent stress_strain(const StudyResult& study) {
   if (!main) return content;
   content.statement = main->text("test") == "pure_shear"
                           ? "Narrow strength distributions fail abruptly; wide ones crack early and fail gradually."
-                          : "Stress on the walls and springs broken so far, step by step.";
+                          : "";
   std::vector<std::string> said;
   for (const dem::Record* r : records_of(study)) {
     const std::string label = label_of(*r, study);
@@ -128,17 +136,27 @@ FigureContent stress_strain(const StudyResult& study) {
                             number(100 * r->result("strain_at_peak"), 3)),
          .content = stress_chart(*r),
          .per_row = 2});
-    said.push_back(fmt::format("{}: first break at {} %, {} breaks in the worst step", label,
-                               number(100 * result_or_nan(*r, "onset_strain"), 3),
-                               count(r->result("most_breaks_in_a_step"))));
+    const std::string start = label == "this run" ? std::string() : label + ": ";
+    if (!r->has_result("onset_strain")) {
+      said.push_back(start + "no spring broke");
+      continue;
+    }
+    std::string words =
+        fmt::format("{}first break at {} %, {} of the broken springs", start,
+                    number(100 * r->result("onset_strain"), 3), percent(result_or_nan(*r, "worst_step_share"), 0));
+    if (result_or_nan(*r, "largest_drop_share") > 0) {
+      words += fmt::format(" and {} of the largest tension on the walls", percent(r->result("largest_drop_share"), 0));
+    }
+    said.push_back(words + " lost in the worst step");
   }
-  content.finding = joined(said, "; ") + ".";
+  std::string words = joined(said, "; ") + ".";
+  words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
+  content.finding = words;
   return content;
 }
 
 FigureContent energy(const StudyResult& study) {
   FigureContent content;
-  content.statement = "Work of the walls and of growing grains is stored in springs or released by breaking.";
   std::vector<std::string> said;
   for (const dem::Record* r : records_of(study)) {
     if (r->text("solver") != "converged") continue;
@@ -169,19 +187,23 @@ FigureContent energy(const StudyResult& study) {
     const std::string label = label_of(*r, study);
     content.panels.push_back(
         {.id = r->case_id,
-         .caption = fmt::format("Energy, {}.", label),
+         .caption = label == "this run" ? std::string("Energy.") : fmt::format("Energy, {}.", label),
          .alt = fmt::format("Work, elastic energy and released energy agree to {} of the work.", number(residual, 2)),
          .content = chart,
          .per_row = 2});
-    said.push_back(fmt::format("{}: {}", label, number(residual, 2)));
+    said.push_back(label == "this run" ? number(residual, 2) : fmt::format("{}: {}", label, number(residual, 2)));
   }
-  if (!said.empty()) content.finding = "Unaccounted for, as a share of the work: " + joined(said, "; ") + ".";
+  if (!said.empty())
+    content.finding =
+        "Work of the walls and of growing grains is stored in springs or released by breaking. Unaccounted for, as a "
+        "share of the work: " +
+        joined(said, "; ") + ".";
   return content;
 }
 
 FigureContent stress_fields(const StudyResult& study) {
   FigureContent content;
-  content.statement = "Mean and differential stress of each particle, from the springs that it holds.";
+  content.finding = "Stress of each particle from the springs that it holds, over its cell of the lattice.";
   const dem::Record* r = main_record(study);
   if (!r) return content;
   const auto snapshots = snapshots_of(*r);
@@ -198,9 +220,6 @@ FigureContent stress_fields(const StudyResult& study) {
 
 FigureContent solvers(const StudyResult& study) {
   FigureContent content;
-  content.statement =
-      "The historical sweep stops when no particle moves by more than 1.4 × 10⁻⁷ of the box in a sweep; the converged "
-      "solver stops at force equilibrium.";
   const dem::Record *ours = nullptr, *theirs = nullptr;
   for (const dem::Record* r : records_of(study)) {
     if (r->text("solver") == "as_published") theirs = r;
@@ -225,7 +244,8 @@ FigureContent solvers(const StudyResult& study) {
   row("Peak differential stress (k)", "peak_differential_stress_dimensionless", [](double v) { return number(v, 4); });
   row("Strain at the peak (%)", "strain_at_peak", [](double v) { return number(100 * v, 3); });
   row("Share between grains", "inter_grain_share", [](double v) { return percent(v, 1); });
-  row("Largest unbalanced over largest spring force", "unbalanced_force_share", [](double v) { return number(v, 2); });
+  row("Largest unbalanced over largest spring force", "unbalanced_force_dimensionless",
+      [](double v) { return number(v, 2); });
   row("Energy unaccounted for, share of the work", "energy_residual", [](double v) { return number(v, 2); });
   // How long the two orders of breaking agree.
   const auto a = ours->table("cracks").real("position"), b = theirs->table("cracks").real("position");
@@ -235,6 +255,13 @@ FigureContent solvers(const StudyResult& study) {
     ++same;
   table.rows.push_back(
       {"Breaks in the same order from the start", count(static_cast<double>(same)), count(static_cast<double>(same))});
+  std::set<std::pair<double, double>> broken_ours;
+  for (std::size_t k = 0; k + 1 < a.size(); k += 2) broken_ours.insert({a[k], a[k + 1]});
+  std::size_t shared = 0;
+  for (std::size_t k = 0; k + 1 < b.size(); k += 2) shared += broken_ours.count({b[k], b[k + 1]});
+  const double both = a.empty() ? 0.0 : 2.0 * static_cast<double>(shared) / static_cast<double>(a.size());
+  table.rows.push_back(
+      {"Springs broken in both", count(static_cast<double>(shared)), count(static_cast<double>(shared))});
   content.panels.push_back(
       {.id = "numbers", .caption = "One sheet, two solvers.", .alt = "", .content = table, .per_row = 1});
   const double strain = std::min(ours->result("final_strain"), theirs->result("final_strain"));
@@ -248,8 +275,11 @@ FigureContent solvers(const StudyResult& study) {
          .content = fracture_map(*r, strain, 430),
          .per_row = 2});
   }
-  content.finding = fmt::format("The two runs break the same springs in the same order for the first {} breaks.",
-                                count(static_cast<double>(same)));
+  content.finding = fmt::format(
+      "The historical sweep stops when no particle moves by more than 1.4 × 10⁻⁷ of the box in a sweep; the converged "
+      "solver stops at force equilibrium. The order of breaks is the same for the first {} breaks; {} of the springs that break "
+      "converged also break as published.",
+      count(static_cast<double>(same)), percent(both, 0));
   return content;
 }
 

@@ -129,8 +129,10 @@ TEST_CASE("partial Cholesky raises pivots that have lost their stiffness") {
   double a[16] = {};
   a[0] = 2, a[1] = -2, a[5] = 2, a[10] = 1, a[15] = 1;  // two pairs, the first without stiffness against the second
   const double diagonal[4] = {2, 2, 1, 1};
-  CHECK(partial_cholesky(a, 4, 4, 4, diagonal, {}) == 1);
+  CHECK(partial_cholesky(a, 4, 4, 4, diagonal, {}) == 0);
   CHECK(a[5] == doctest::Approx(std::sqrt(2e-3)));
+  double b[4] = {2, -3, 0, 2};  // a direction of negative stiffness is told
+  CHECK(partial_cholesky(b, 2, 2, 2, diagonal, {}) == 1);
 }
 
 TEST_CASE("one or several threads give the same factor") {
