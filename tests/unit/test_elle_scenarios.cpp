@@ -63,7 +63,8 @@ TEST_CASE("values that are wrong together are refused with their place") {
 }
 
 TEST_CASE("a record holds what figures and summary need") {
-  auto s = scenario("elle_layer_extension", {"sheet.columns=60", "loading.steps=24"});
+  auto s = scenario("elle_layer_extension",
+                    {"sheet.columns=40", "loading.steps=24", "grains.layer_low=0.45", "grains.layer_high=0.55"});
   const dem::Record r = run(model().cases(s).front());
   CHECK(r.result("particles") == 40 * 46);
   CHECK(r.table("particles").rows() == 40 * 46);
