@@ -127,9 +127,15 @@ void Assembly::forces(Block& block, std::int64_t step, bool look_for_contacts) {
   }
   for (std::int32_t k = 0; k < loop.flagged_count; ++k) {
     PartlyBrokenJoint& joint = block.broken[static_cast<std::size_t>(block.flagged[static_cast<std::size_t>(k)])];
-    const JointResult result = texture::advance(joint, pose(joint.first), pose(joint.second));
-    add(joint.first, joint.second, result.action);
+    const Pose<double> one = pose(joint.first), two = pose(joint.second);
+    const bool was_broken = joint.broken();
+    const JointResult result = texture::advance(joint, one, two);
     block.friction += result.friction_heat;
+    if (was_broken) {
+      roll(block, joint, result.action);
+      continue;
+    }
+    add(joint.first, joint.second, result.action);
     for (int b = 0; b < result.breaks; ++b) {
       const ElementBreak& e = result.broke[b];
       const double r = joint.law.rho / flat_joint_arm;
@@ -198,6 +204,55 @@ void Assembly::forces(Block& block, std::int64_t step, bool look_for_contacts) {
 }
 
 // Joints whose bound was passed: looked at element by element. One that breaks leaves the packs for good.
+// A broken joint whose faces have lost each other becomes a contact of spheres, with the same stiffness and distance at rest.
+// Its shear and its couples are let go: what they had stored turns into heat (never less than nothing, as the mean over the
+// elements of a convex energy is at least the energy of the mean gap).
+void Assembly::roll(Block& block, PartlyBrokenJoint& joint, const Action<double>& action) {
+  const Pose<double> one = pose(joint.first), two = pose(joint.second);
+  const Motion<double> m = motion(one, two, joint.reference, joint.share_one, joint.reference_length);
+  const double closed = std::min(m.gap, 0.0);
+  const Action<double> kept = action_at_contact(m, joint.share_one, (-joint.law.normal * closed) * m.n, Triple<double>{0, 0, 0});
+  block.friction += stored(joint, one, two) - 0.5 * joint.law.normal * closed * closed +
+                    half_work(joint.first, joint.second, action - kept);
+  FreshContact contact;
+  contact.first = joint.first;
+  contact.second = joint.second;
+  contact.normal = joint.law.normal;
+  contact.shear = joint.law.normal * joint.law.inverse_ratio;
+  contact.friction = joint.friction;
+  contact.length = joint.reference_length;
+  block.fresh.push_back(contact);
+  joint.alive = false;
+}
+
+// The same for a broken parallel bond: its linear part goes on as it is, shear included.
+void Assembly::roll(Block& block, ParallelBondPack& pack, int lane) {
+  using F = ParallelBondPack;
+  const auto get = [&](F::Field f) { return pack.field[f][lane]; };
+  FreshContact contact;
+  contact.first = pack.first[lane];
+  contact.second = pack.second[lane];
+  contact.normal = get(F::linear_normal);
+  contact.shear = contact.normal * get(F::linear_inverse_ratio);
+  contact.friction = get(F::friction);
+  contact.length = get(F::length);
+  const Motion<double> m = motion(pose(contact.first), pose(contact.second), {get(F::dx), get(F::dy), get(F::dz)},
+                                  get(F::share_one), get(F::length));
+  const Triple<double> shear{get(F::shear_x), get(F::shear_y), get(F::shear_z)};
+  // Take back what the pack added: the contact acts with the others of its kind, in this same step, after the slide of it.
+  const Triple<double> f = (-contact.normal * std::min(m.gap, 0.0)) * m.n - contact.shear * shear;
+  add(contact.first, contact.second,
+      Action<double>{} - action_at_contact(m, get(F::share_one), f, Triple<double>{0, 0, 0}));
+  const Row8& v1 = velocity_[static_cast<std::size_t>(contact.first)];
+  const Row8& v2 = velocity_[static_cast<std::size_t>(contact.second)];
+  const Triple<double> d = m.length * m.n;
+  const Triple<double> turn = get(F::share_one) * triple(v1, 1) + (1 - get(F::share_one)) * triple(v2, 1);
+  contact.slide = shear - dt_ * (triple(v2, 0) - triple(v1, 0) - cross(turn, d));
+  block.fresh.push_back(contact);
+  pack.field[F::linear_normal][lane] = 0;
+  pack.field[F::cohesion][lane] = huge;
+}
+
 void Assembly::joint_events(Block& block, std::int32_t count) {
   using F = FlatJointPack;
   for (std::int32_t k = 0; k < count; ++k) {
@@ -237,6 +292,10 @@ void Assembly::bond_events(Block& block, std::int64_t step, std::int32_t count) 
     ParallelBondPack& pack = block.bonds[static_cast<std::size_t>(slot / pack_width)];
     const int lane = slot % pack_width;
     const auto get = [&](F::Field f) { return pack.field[f][lane]; };
+    if (get(F::normal) == 0) {
+      roll(block, pack, lane);
+      continue;
+    }
     const std::int32_t first = pack.first[lane], second = pack.second[lane];
     const Pose<double> one = pose(first), two = pose(second);
     const ParallelBond<double> bond = {get(F::linear_normal), get(F::linear_inverse_ratio), get(F::friction),
@@ -253,7 +312,7 @@ void Assembly::bond_events(Block& block, std::int64_t step, std::int32_t count) 
                             std::numbers::pi * bond.radius * bond.radius});
     pack.field[F::normal][lane] = 0;
     pack.field[F::opening][lane] = huge;
-    pack.field[F::cohesion][lane] = huge;
+    pack.field[F::cohesion][lane] = bond.inverse_ratio * mismatch * get(F::length);  // flagged when its faces lose each other
     pack.field[F::tan_phi][lane] = 0;
   }
 }

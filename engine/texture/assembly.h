@@ -183,6 +183,8 @@ class Assembly {
   void install(const AssemblyInput& input);
   void choose_time_step(const AssemblyInput& input);
   void forces(Block& block, std::int64_t step, bool look_for_contacts);
+  void roll(Block& block, PartlyBrokenJoint& joint, const Action<double>& action);
+  void roll(Block& block, ParallelBondPack& pack, int lane);
   void joint_events(Block& block, std::int32_t count);
   void bond_events(Block& block, std::int64_t step, std::int32_t count);
   void wall_forces(std::size_t slab);

@@ -64,7 +64,8 @@ struct Kernels {
   double (*flat_joint_energy)(const FlatJointPack*, std::int32_t packs, const double* pose);
   double (*parallel_bond_energy)(const ParallelBondPack*, std::int32_t packs, const double* pose);
   void (*integrate)(MotionLoop&);
-  /// Those joints of `list` in which no element breaks; the others are flagged by their number in `joints` and left alone.
+  /// Those joints of `list` in which no element breaks and whose broken faces still match; the others are flagged by their
+  /// number in `joints` and left alone.
   void (*broken_joints)(PartlyBrokenJoint* joints, const std::int32_t* list, std::int32_t count, BondLoop&);
 };
 

@@ -54,6 +54,18 @@ DEM_INLINE Motion<V> motion(const Pose<V>& one, const Pose<V>& two, const Triple
   return m;
 }
 
+/// Faces that have slid against each other by this share of their distance, or turned by this angle (rad), no
+/// longer match: a broken bond becomes a frictional contact of spheres. The total form is good for smaller motions only:
+/// on a fragment that rolls on, its friction would do work that no energy stands for.
+inline constexpr double mismatch = 0.1;
+
+template <class V>
+DEM_INLINE auto mismatched(const Motion<V>& m) {
+  const V limit = mismatch * m.length;
+  const V turn = dot(m.theta_t, m.theta_t) + m.theta_n * m.theta_n;
+  return (dot(m.u, m.u) > limit * limit) | (turn > (turn - turn) + mismatch * mismatch);
+}
+
 /// What a bond does to its particles: force on 2 (the opposite acts on 1) and the moments about the two centres.
 template <class V>
 struct Action {
