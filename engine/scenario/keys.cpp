@@ -44,6 +44,10 @@ std::string limit_text(const Key& key) {
 std::span<const Key> common_keys() {
   static const std::vector<Key> keys = {
       {.path = "model", .type = KeyType::text, .help = "the model that simulates the cases"},
+      {.path = "include",
+       .type = KeyType::text,
+       .standard = "\"\"",
+       .help = "a file of keys to start from, such as a rock; this file's keys and lists go over them"},
       {.path = "title", .type = KeyType::text, .standard = "\"\"", .help = "title of the report"},
       {.path = "description",
        .type = KeyType::text,

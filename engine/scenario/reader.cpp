@@ -318,6 +318,32 @@ void complete(const Declared& declared, const std::string& file, std::span<const
   }
 }
 
+/// The file named by the key `include`: by --set from the caller's folder, else from the folder of the scenario. Empty: none.
+struct Included {
+  std::string file;
+  Location where;
+};
+
+Included included_file(const toml::table& root, const std::string& file, std::span<const Override> overrides) {
+  Included found;
+  const auto text = [](const toml::node* node, const Location& where) {
+    const auto* word = node->as_string();
+    if (!word) throw InputError(where, "include", "wrong type", "write the path of a file in quotes");
+    return word->get();
+  };
+  if (const toml::node* node = root.get("include")) {
+    found.where = location(file, node->source());
+    const std::filesystem::path named = text(node, found.where);
+    if (!named.empty()) found.file = (std::filesystem::path(file).parent_path() / named).string();
+  }
+  for (const Override& override : overrides) {
+    if (override.path != "include") continue;
+    found.where = Location{"--set", 0, 0};
+    found.file = text(override.parsed.get("value"), found.where);
+  }
+  return found;
+}
+
 /// Numbered entries only: "mineral[2]" is an index, "mineral[]" and "mineral[x]" are for the caller to refuse.
 bool digits(std::string_view text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
@@ -372,6 +398,26 @@ ReadScenario read_scenario(const std::string& file, std::string_view scale, std:
   }
   const Declared declared(declarations(root, file, model, keys_of));
 
+  Layer below;
+  const Included include = included_file(root, file, parsed);
+  if (!include.file.empty()) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(include.file, error)) {
+      throw InputError(include.where, "include", "there is no file " + include.file,
+                       "give the path of a file with keys to start from, seen from this file's folder");
+    }
+    const toml::table start = parse(read_text(include.file), include.file);
+    for (const char* name : {"include", "scales"}) {
+      if (const toml::node* node = start.get(name)) {
+        throw InputError(location(include.file, node->source()), name, "does not belong into an included file",
+                         "write it in the scenario itself");
+      }
+    }
+    Walk walk(include.file, declared);
+    walk.table(start, "", "", below);
+    walk.throw_first();
+  }
+
   Walk walk(file, declared);
   Layer base;
   std::map<std::string, Layer, std::less<>> scales;
@@ -390,10 +436,12 @@ ReadScenario read_scenario(const std::string& file, std::string_view scale, std:
                                    : "it has: " + joined(names));
   }
   ReadScenario scenario;
+  scenario.included = include.file;
+  lay_over(below, scenario);
   lay_over(base, scenario);
   lay_over(chosen->second, scenario);
   for (const Override& override : parsed) apply_override(override, declared, scenario);
-  const std::array<const Layer*, 2> layers = {&base, &chosen->second};
+  const std::array<const Layer*, 3> layers = {&base, &chosen->second, &below};
   complete(declared, file, layers, scenario);
   return scenario;
 }

@@ -19,6 +19,7 @@ struct ReadValue {
 struct ReadScenario {
   std::map<std::string, ReadValue, std::less<>> values;  ///< by path with indices: "mineral[0].share"
   std::map<std::string, std::size_t, std::less<>> counts;
+  std::string included;  ///< path of the included file; empty: none
 };
 
 using KeysOf = std::function<std::span<const Key>(std::string_view model)>;

@@ -53,6 +53,7 @@ Scenario Scenario::read(const std::string& file, std::string_view scale, std::sp
   Scenario scenario;
   scenario.name_ = std::filesystem::path(file).stem().string();
   scenario.file_ = file;
+  scenario.included_ = read.included;
   scenario.scale_ = scale;
   for (auto& [path, item] : read.values) {
     scenario.entries_[path] = {std::move(item.value), std::move(item.where), item.given};

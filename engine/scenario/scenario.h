@@ -55,6 +55,7 @@ class Scenario {
 
   [[nodiscard]] const std::string& name() const { return name_; }    ///< file stem
   [[nodiscard]] const std::string& file() const { return file_; }
+  [[nodiscard]] const std::string& included() const { return included_; }  ///< file of its key `include`; "": none
   [[nodiscard]] const std::string& scale() const { return scale_; }
   [[nodiscard]] std::string model() const { return text("model"); }
   [[nodiscard]] std::uint64_t seed() const { return static_cast<std::uint64_t>(integer("seed")); }
@@ -85,7 +86,7 @@ class Scenario {
     Location where;
     bool given = false;
   };
-  std::string name_, file_, scale_;
+  std::string name_, file_, included_, scale_;
   std::map<std::string, Entry, std::less<>> entries_;
   std::map<std::string, std::size_t, std::less<>> counts_;
   [[nodiscard]] const Entry& entry(std::string_view path) const;
