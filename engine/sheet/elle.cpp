@@ -30,6 +30,15 @@ Words split(std::string_view line) {
   return words;
 }
 
+// As much of a word as a message needs; bytes that are no plain text would upset a terminal.
+std::string shown(std::string_view word) {
+  std::string text(word.substr(0, 40));
+  for (char& c : text) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return word.size() > 40 ? text + "..." : text;
+}
+
 bool is_section(const Words& words) {
   if (words.size() != 1 || !(words[0][0] >= 'A' && words[0][0] <= 'Z')) return false;
   return std::all_of(words[0].begin(), words[0].end(),
@@ -53,7 +62,7 @@ class Reader {
     bool have = next(words);
     while (have) {
       if (!is_section(words)) {
-        fail(fmt::format("'{}' stands outside every section", words[0]),
+        fail(fmt::format("'{}' stands outside every section", shown(words[0])),
              "a section begins with its name in capitals alone on a line, like FLYNNS");
       }
       section_ = std::string(words[0]);
@@ -95,7 +104,7 @@ class Reader {
     int value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc{} || end != word.data() + word.size() || value < 0) {
-      fail(fmt::format("'{}' is no id or count", word), "a whole number from 0 up is needed here");
+      fail(fmt::format("'{}' is no id or count", shown(word)), "a whole number from 0 up is needed here");
     }
     return value;
   }
@@ -103,7 +112,7 @@ class Reader {
     double value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) {
-      fail(fmt::format("'{}' is no number", word), "a finite number is needed here");
+      fail(fmt::format("'{}' is no number", shown(word)), "a finite number is needed here");
     }
     return value;
   }
@@ -185,7 +194,7 @@ class Reader {
       std::string value;
       for (std::size_t i = 1; i < words.size(); ++i) value += (i > 1 ? " " : "") + std::string(words[i]);
       if (value.empty())
-        fail(fmt::format("'{}' has no value", words[0]), "a line holds a flynn id, or Default, and a value");
+        fail(fmt::format("'{}' has no value", shown(words[0])), "a line holds a flynn id, or Default, and a value");
       if (words[0] == "Default") {
         found.standard = value;
         continue;

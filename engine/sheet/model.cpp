@@ -41,8 +41,9 @@ std::vector<CaseSpec> cases(const Scenario& s) {
       std::vector<std::string> prefixes{"sheet.", "grains.", "rule", "disorder.", "loading.", "solvers"};
       prefixes.emplace_back(solver == "converged" ? "solver." : "published.");
       spec.content = fmt::format("{}\nseed = {}\n{}", version, s.seed(), one.canonical(prefixes));
+      // A broken file, a map that does not cover the sheet or has too few grains are found before anything runs.
+      if (all.empty() && (settings.source == "file" || settings.expanding > 0)) (void)make_specimen(settings);
       if (settings.source == "file") {
-        (void)read_elle(settings.file);  // a broken file is found before anything runs
         spec.content += "map = " + sha256(read_file(settings.file)) + "\n";
       }
       spec.parameters = {
