@@ -123,6 +123,7 @@ FigureContent box(const StudyResult& study) {
     spheres.colour.push_back(colour);
   }
   whole.scene.spheres = {spheres};
+  whole.scene.cuts.push_back({{0, 0, 0}, {0, 0, 1}});
   whole.scene.camera.direction = {0, 0, -1};
   whole.scene.camera.up = {0, 1, 0};
   whole.scene.width = 800;

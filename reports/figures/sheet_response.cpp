@@ -89,11 +89,12 @@ Panel field_panel(const dem::Record& r, const std::string& table, double strain,
   render::Spheres spheres;
   for (std::size_t i = 0; i < value.size(); ++i) {
     spheres.centre.push_back({place[2 * i] + move[2 * i], place[2 * i + 1] + move[2 * i + 1], 0});
-    spheres.radius.push_back(1.1 * l.radius);
+    spheres.radius.push_back(1.16 * l.radius);  // wide enough to leave no gap between three
     spheres.colour.push_back(signed_values ? diverging(value[i] / scale) : rising((value[i] - low) / (scale - low)));
   }
   Picture p;
   p.scene.spheres = {spheres};
+  p.scene.cuts.push_back({{0, 0, 0}, {0, 0, 1}});  // discs in flat colours: a value, not a shape
   p.scene.camera.direction = {0, 0, -1};
   p.scene.camera.up = {0, 1, 0};
   p.scene.width = 900;
@@ -277,8 +278,8 @@ FigureContent solvers(const StudyResult& study) {
   }
   content.finding = fmt::format(
       "The historical sweep stops when no particle moves by more than 1.4 × 10⁻⁷ of the box in a sweep; the converged "
-      "solver stops at force equilibrium. The order of breaks is the same for the first {} breaks; {} of the springs that break "
-      "converged also break as published.",
+      "solver stops at force equilibrium. The order is the same for the first {} breaks; {} of the springs "
+      "that break converged also break as published.",
       count(static_cast<double>(same)), percent(both, 0));
   return content;
 }
