@@ -37,7 +37,7 @@ Panel map_panel(const StudyResult& study, const dem::Record& r, double strain, i
                                  label == "this run" ? "Fractures" : "Fractures, " + label + ",", strain_words(strain),
                                  count(n[0]), count(n[1])),
           .alt = fmt::format("Map of {} broken springs over the outlines of grains.", count(n[0] + n[1])),
-          .content = fracture_map(r, strain, 430),
+          .content = fracture_map(r, strain, per_row == 1 ? 880 : 430),
           .per_row = per_row};
 }
 
@@ -126,7 +126,8 @@ FigureContent fracture_maps(const StudyResult& study) {
           ? "A competent layer in extension breaks by through-going tensile fractures at regular spacing."
           : "A competent layer in compression breaks where springs are pulled across the compression; every break is "
             "tension.";
-  for (const double strain : strains_of(*r)) content.panels.push_back(map_panel(study, *r, strain, 2));
+  for (const double strain : strains_of(*r))
+    content.panels.push_back(map_panel(study, *r, strain, layered(*r) ? 1 : 2));
   if (!r->has_result("onset_strain")) {
     content.finding = "No spring broke.";
     return content;
@@ -208,12 +209,17 @@ FigureContent radial_fractures(const StudyResult& study) {
 
 FigureContent spacing(const StudyResult& study) {
   FigureContent content;
+  const dem::Record* r = main_record(study);
+  if (!r || !r->table("history").has("crossing_fractures")) return content;
+  if (r->text("test") == "compression" && result_or_nan(*r, "crossing_fractures") < 1) {
+    content.panels.push_back(
+        note_panel("", "Spacing of fractures through the layer.", "No fracture crosses the layer in this run."));
+    return content;
+  }
   content.statement =
       "From the field: the spacing of through-going fractures falls with strain and comes to rest at a value set by "
       "the "
       "layer's thickness.";
-  const dem::Record* r = main_record(study);
-  if (!r || !r->table("history").has("crossing_fractures")) return content;
   const dem::Table& h = r->table("history");
   render::Chart chart;
   chart.x.title = "Strain (%)";

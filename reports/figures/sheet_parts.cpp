@@ -114,10 +114,22 @@ std::vector<std::vector<std::array<double, 2>>> outlines_of(const dem::Record& r
   return result;
 }
 
+bool layered(const dem::Record& record) { return record.table("history").has("crossing_fractures"); }
+
 std::string fracture_map(const dem::Record& record, double strain, double width) {
   const Layout l = layout_of(record);
-  Drawing d(0, 0, 1 + l.radius, l.height, width);
   const auto outlines = outlines_of(record);
+  double low = 0, high = l.height;
+  if (layered(record)) {  // the layer and as much matrix on either side: fractures are too small in the whole box
+    low = l.height, high = 0;
+    for (std::size_t g = 0; g < outlines.size(); ++g) {
+      if (!marked(record, g)) continue;
+      for (const auto& p : outlines[g]) low = std::min(low, p[1]), high = std::max(high, p[1]);
+    }
+    const double thickness = high - low;
+    low = std::max(0.0, low - thickness), high = std::min(l.height, high + thickness);
+  }
+  Drawing d(0, low, 1 + l.radius, high, width);
   for (std::size_t g = 0; g < outlines.size(); ++g) {
     const std::string_view fill = marked(record, g) ? marked_fill : std::string_view("#ffffff");
     for (const double dx : {-1.0, 0.0, 1.0}) {
@@ -148,7 +160,7 @@ std::string fracture_map(const dem::Record& record, double strain, double width)
                       path, wanted ? inter_colour : intra_colour, thick));
   }
   d.raw(fmt::format("<rect x=\"0.5\" y=\"0.5\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#555\"/>",
-                    width - 1, l.height * d.scale() - 1));
+                    width - 1, (high - low) * d.scale() - 1));
   return d.finish();
 }
 

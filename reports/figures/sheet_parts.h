@@ -51,6 +51,9 @@ constexpr std::string_view intra_colour = "#d55e00", inter_colour = "#0b3c5d";
 /// The outlines of a record's grains, each as points.
 std::vector<std::vector<std::array<double, 2>>> outlines_of(const dem::Record& record);
 
+/// True for a layer in a matrix.
+bool layered(const dem::Record& record);
+
 /// Cracks up to a strain over the grain outlines, intra and inter grain by colour.
 std::string fracture_map(const dem::Record& record, double strain, double width);
 /// Number of cracks up to a strain: {intra, inter}.

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <span>
 
 #include "engine/sheet/experiment.h"
 #include "engine/sheet/grains.h"
@@ -35,6 +36,44 @@ Sheet polycrystal(int columns) {
   const ElleMap map = voronoi_map({});
   apply_disorder(sheet, cover(map, sheet), std::vector<GrainProperties>(map.flynns.size()), {}, 1);
   return sheet;
+}
+
+// One broken spring relaxed by the historical sweep until it is as converged as ours, and by our solver, on a small
+// sheet: the sweep needs about (columns)^2 sweeps of (columns)^2 particles. Times are of the processor, one thread.
+struct Race {
+  double sweeps = 0, sweep_seconds = 0, our_seconds = 0;
+};
+Race race(int columns, int threads) {
+  Sheet sheet = polycrystal(columns);
+  ConvergedSettings settings;
+  settings.threads = threads;
+  ConvergedSolver solver(sheet, settings);
+  Loading loading;
+  loading.steps = 100;
+  loading.most_breaks = 50;
+  Experiment experiment(sheet, solver, loading, threads);
+  experiment.run();
+  Forces forces;
+  compute_forces(sheet, forces, threads);
+  const int slot = most_critical(sheet, forces, threads).slot;
+  sheet.joined[static_cast<std::size_t>(slot)] = 0;
+  Sheet other = sheet;
+  Race r;
+  double t = cpu();
+  (void)solver.relax(sheet, forces, std::span(&slot, 1));
+  r.our_seconds = cpu() - t;
+  PublishedSettings block;
+  block.stop = 0;
+  block.most_sweeps = 100;
+  PublishedSolver historical(block, 1);
+  compute_forces(other, forces, threads);
+  t = cpu();
+  while (forces.unbalanced > settings.tolerance * forces.largest && r.sweeps < 1e6) {
+    historical.relax(other, forces, {});
+    r.sweeps += block.most_sweeps;
+  }
+  r.sweep_seconds = cpu() - t;
+  return r;
 }
 
 }  // namespace
@@ -103,8 +142,18 @@ int main(int argc, char** argv) {
   sweeps.stop = 0;
   sweeps.most_sweeps = 20;
   PublishedSolver historical(sweeps, threads);
-  t = now();
+  t = cpu();
   historical.relax(sheet, forces, {});
-  line("historical_sweep", (now() - t) / sweeps.most_sweeps, "s", 1, size);
+  const double sweep = (cpu() - t) / sweeps.most_sweeps;
+  line("historical_sweep", sweep, "s", 1, size);
+  const int small = columns < 100 ? columns : 100;
+  const Race r = race(small, 1);
+  const Sheet of_race = make_sheet(small);
+  line("historical_sweeps_a_break", r.sweeps, "1", 1, of_race.particles());
+  line("historical_break_as_converged", r.sweep_seconds, "s", 1, of_race.particles());
+  line("times_faster", r.sweep_seconds / r.our_seconds, "1", 1, of_race.particles());
+  const double scale = static_cast<double>(size) / of_race.particles();
+  line("historical_break_extrapolated", r.sweeps * scale * sweep, "s", 1, size);
+  line("times_faster_extrapolated", r.sweeps * scale * sweep / (cpu_in_breaks / done), "1", threads, size);
   return 0;
 }
