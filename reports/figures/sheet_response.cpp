@@ -143,12 +143,13 @@ FigureContent stress_strain(const StudyResult& study) {
       continue;
     }
     std::string words =
-        fmt::format("{}first break at {} %, {} of the broken springs", start,
+        fmt::format("{}first break at {} %; the worst step breaks {} of the springs", start,
                     number(100 * r->result("onset_strain"), 3), percent(result_or_nan(*r, "worst_step_share"), 0));
     if (result_or_nan(*r, "largest_drop_share") > 0) {
-      words += fmt::format(" and {} of the largest tension on the walls", percent(r->result("largest_drop_share"), 0));
+      words +=
+          fmt::format(" and takes {} of the largest tension on the walls", percent(r->result("largest_drop_share"), 0));
     }
-    said.push_back(words + " lost in the worst step");
+    said.push_back(words);
   }
   std::string words = joined(said, "; ") + ".";
   words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
