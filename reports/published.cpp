@@ -18,6 +18,9 @@ struct NotComputed {
   std::string why;
 };
 
+// Counts as counts, measurements with four digits.
+std::string short_number(double value) { return std::floor(value) == value ? count(value) : number(value, 4); }
+
 std::string case_id(const Json& term, const std::string& step) {
   std::string id = term.at("case").get<std::string>();
   const std::size_t place = id.find("{}");
@@ -82,7 +85,7 @@ void compare_trend(const StudyResult& study, const Json& entry, Comparison& row)
   row.computed = std::string(slope > 0 ? "rises" : slope < 0 ? "falls" : "stays level");
   const bool steady = std::ranges::is_sorted(ours) || std::ranges::is_sorted(ours, std::greater{});
   std::vector<std::string> shown;
-  for (const double value : ours) shown.push_back(number(value, 4));
+  for (const double value : ours) shown.push_back(short_number(value));
   row.detail = joined(shown, " → ") + (steady ? "" : ", not at every step");
   row.verdict = *row.computed == row.published ? Verdict::met : Verdict::missed;
 }
@@ -91,7 +94,7 @@ void compare_greater(const StudyResult& study, const Json& entry, Comparison& ro
   const double ours = value_of(study, entry.at("of"), {});
   const double other = value_of(study, entry.at("than"), {});
   row.computed = std::string(ours > other ? "greater" : ours < other ? "smaller" : "equal");
-  row.detail = number(ours, 4) + " against " + number(other, 4);
+  row.detail = short_number(ours) + " against " + short_number(other);
   row.verdict = ours > other ? Verdict::met : Verdict::missed;
 }
 
@@ -113,7 +116,7 @@ Comparison described(const Json& entry) {
   } else {
     row.published = row.kind == "trend" ? entry.at("published").get<std::string>() : "greater";
     std::vector<std::string> values;
-    for (const Json& value : entry.value("published_values", Json::array())) values.push_back(number(value.get<double>(), 4));
+    for (const Json& value : entry.value("published_values", Json::array())) values.push_back(shortest(value.get<double>()));
     row.published_detail = joined(values, " → ");
   }
   return row;
@@ -126,8 +129,7 @@ bool optional_and_absent(const StudyResult& study, const Json& entry) {
 
 void compare_entry(const StudyResult& study, const Json& entry, std::vector<Comparison>& rows) {
   const auto scenarios = entry.at("scenarios").get<std::vector<std::string>>();
-  const std::string& chosen = study.scenario->text("comparisons");
-  if (std::ranges::find(scenarios, chosen.empty() ? study.scenario->name() : chosen) == scenarios.end()) return;
+  if (std::ranges::find(scenarios, study.scenario->name()) == scenarios.end()) return;
   if (optional_and_absent(study, entry)) return;
   Comparison row = described(entry);
   try {

@@ -93,6 +93,8 @@ std::string with_sign(std::string text) {
   return text.starts_with(minus_sign) ? text : "+" + text;
 }
 
+std::string shortest(double value) { return dressed(fmt::format("{:.9g}", value)); }
+
 std::string count(double value) { return fixed(value, 0); }
 
 std::string listed(const std::vector<std::string>& items) {

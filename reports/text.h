@@ -19,6 +19,8 @@ std::string fixed(double value, int places);
 std::string percent(double fraction, int places = 1);
 /// With a sign in front, also for positive values.
 std::string with_sign(std::string text);
+/// As short as it can be without loss: "206.8", "55".
+std::string shortest(double value);
 /// A count with thin spaces: "36 528".
 std::string count(double value);
 

@@ -1,0 +1,159 @@
+// Verdicts: our numbers beside published ones.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "engine/core/errors.h"
+#include "engine/core/files.h"
+#include "reports/published.h"
+#include "tests/reports/synthetic.h"
+#include "tests/support/scratch.h"
+
+namespace {
+
+using reports::Comparison;
+using reports::Verdict;
+
+/// A study of three cases with one result each.
+struct Fixture {
+  test::Scratch scratch;
+  dem::Scenario scenario = synthetic::scenario(scratch.path());
+  std::vector<dem::Record> records;
+
+  Fixture() {
+    for (const double ucs : {206.0, 190.0, 195.0}) {
+      dem::Record record;
+      record.case_id = "compression_ar_" + std::to_string(records.size() + 1);
+      record.results = {{"ucs_MPa", ucs}, {"share", 0.5}};
+      records.push_back(record);
+    }
+  }
+
+  [[nodiscard]] reports::StudyResult study() const {
+    reports::StudyResult result{&scenario, {}};
+    for (const auto& record : records) result.cases.push_back({record.case_id, &record, ""});
+    return result;
+  }
+
+  [[nodiscard]] std::vector<Comparison> compared(const std::string& numbers, const reports::StudyResult& study) const {
+    dem::write_file(scratch / "published/paper.json", R"({"model": "grain_texture", "paper": "P", "scale": "paper", "numbers": [)" +
+                                                          numbers + "]}");
+    return reports::compare(study, scratch / "published").rows;
+  }
+  [[nodiscard]] Comparison one(const std::string& rest) const { return one(rest, study()); }
+  [[nodiscard]] Comparison one(const std::string& rest, const reports::StudyResult& study) const {
+    const auto rows = compared(R"({"id": "x", "scenarios": ["ldb_aspect_ratio"], "source": "S", "quantity": "Q", )" + rest + "}", study);
+    REQUIRE(rows.size() == 1);
+    return rows[0];
+  }
+};
+
+constexpr const char* ucs_1 = R"("of": {"case": "compression_ar_1", "result": "ucs_MPa"})";
+
+std::string value(const std::string& published, const std::string& tolerance, const std::string& of = ucs_1) {
+  return R"("kind": "value", "published": )" + published + R"(, "tolerance": )" + tolerance + ", " + of;
+}
+
+}  // namespace
+
+TEST_CASE_FIXTURE(Fixture, "a value is met within a relative tolerance and missed beyond it") {
+  const Comparison near = one(value("200", R"({"relative": 0.1})"));
+  CHECK(near.verdict == Verdict::met);
+  CHECK(near.relative);
+  CHECK(*near.deviation == doctest::Approx(0.03));
+  CHECK(*near.tolerance == 0.1);
+  CHECK(std::get<double>(*near.computed) == 206);
+  CHECK(one(value("206", R"({"relative": 0})")).verdict == Verdict::met);
+  CHECK(one(value("250", R"({"relative": 0.1})")).verdict == Verdict::missed);
+  CHECK(*one(value("250", R"({"relative": 0.1})")).deviation < 0);
+}
+
+TEST_CASE_FIXTURE(Fixture, "an absolute tolerance is in the unit of the number") {
+  CHECK(one(value("204", R"({"absolute": 2})")).verdict == Verdict::met);
+  CHECK(one(value("203.9", R"({"absolute": 2})")).verdict == Verdict::missed);
+}
+
+TEST_CASE_FIXTURE(Fixture, "a range is left only beyond its ends") {
+  CHECK(*one(value("[200, 210]", R"({"relative": 0.01})")).deviation == 0);
+  const Comparison above = one(value("[100, 200]", R"({"absolute": 5})"));
+  CHECK(*above.deviation == doctest::Approx(6));
+  CHECK(above.verdict == Verdict::missed);
+}
+
+TEST_CASE_FIXTURE(Fixture, "terms: quotients, sums, differences, factors") {
+  const std::string a = R"({"case": "compression_ar_1", "result": "ucs_MPa"})";
+  const std::string b = R"({"case": "compression_ar_2", "result": "ucs_MPa"})";
+  const auto of = [&](const std::string& term) {
+    return std::get<double>(*one(value("1", R"({"relative": 1})", "\"of\": " + term)).computed);
+  };
+  CHECK(of(R"({"quotient": [)" + a + "," + b + "]}") == doctest::Approx(206.0 / 190.0));
+  CHECK(of(R"({"sum": [)" + a + "," + b + "]}") == doctest::Approx(396));
+  CHECK(of(R"({"difference": [)" + a + "," + b + "]}") == doctest::Approx(16));
+  CHECK(of(R"({"times": 100, "case": "compression_ar_1", "result": "share"})") == doctest::Approx(50));
+}
+
+TEST_CASE_FIXTURE(Fixture, "a trend is judged by the sign of its slope") {
+  const std::string falls = R"("kind": "trend", "published": "falls", "over": ["1", "2", "3"], "of": {"case": "compression_ar_{}", "result": "ucs_MPa"})";
+  const Comparison row = one(falls);
+  CHECK(row.verdict == Verdict::met);
+  CHECK(std::get<std::string>(*row.computed) == "falls");
+  CHECK(row.detail.find("not at every step") != std::string::npos);
+  records[2].results[0].second = 230;
+  CHECK(one(falls).verdict == Verdict::missed);
+  records[1].results[0].second = records[2].results[0].second = 206;
+  CHECK(std::get<std::string>(*one(falls).computed) == "stays level");
+  CHECK(one(falls).verdict == Verdict::missed);
+}
+
+TEST_CASE_FIXTURE(Fixture, "greater is greater") {
+  const std::string a = R"({"case": "compression_ar_1", "result": "ucs_MPa"})";
+  const std::string b = R"({"case": "compression_ar_2", "result": "ucs_MPa"})";
+  CHECK(one(R"("kind": "greater", "of": )" + a + R"(, "than": )" + b).verdict == Verdict::met);
+  CHECK(one(R"("kind": "greater", "of": )" + b + R"(, "than": )" + a).verdict == Verdict::missed);
+}
+
+TEST_CASE_FIXTURE(Fixture, "what is missing is not computed, and says why") {
+  const std::string wanted = value("200", R"({"relative": 0.1})");
+  auto failed = study();
+  failed.cases[0].record = nullptr;
+  failed.cases[0].error = "the specimen cannot be packed";
+  CHECK(one(wanted, failed).verdict == Verdict::not_computed);
+  CHECK(one(wanted, failed).detail == "case compression_ar_1 failed");
+  failed.cases[0].error.clear();
+  CHECK(one(wanted, failed).detail == "case compression_ar_1 was not run");
+  records[0].results.clear();
+  CHECK(one(wanted).verdict == Verdict::not_computed);
+  CHECK(one(wanted).detail.find("ucs MPa") != std::string::npos);
+  CHECK_FALSE(one(wanted).computed.has_value());
+}
+
+TEST_CASE_FIXTURE(Fixture, "numbers of other scenarios and optional ones without a case are left out") {
+  const std::string entry = R"({"id": "x", "scenarios": ["other"], "source": "S", "quantity": "Q", )" + value("1", R"({"relative": 1})") + "}";
+  CHECK(compared(entry, study()).empty());
+  const std::string optional = R"({"id": "x", "optional": true, "scenarios": ["ldb_aspect_ratio"], "source": "S", "quantity": "Q", "kind": "value",
+    "published": 1, "tolerance": {"relative": 1}, "of": {"case": "compression_ar_9", "result": "ucs_MPa"}})";
+  CHECK(compared(optional, study()).empty());
+}
+
+TEST_CASE_FIXTURE(Fixture, "a broken file of published numbers is named") {
+  CHECK_THROWS_WITH_AS(compared("{", study()), doctest::Contains("paper.json"), dem::EnvironmentError);
+  CHECK_THROWS_WITH_AS(one(R"("kind": "guess")"), doctest::Contains("published"), dem::EnvironmentError);
+}
+
+TEST_CASE("the published numbers of the grain texture model can be read and have unlike ids") {
+  const test::Scratch scratch;
+  const dem::Scenario scenario = synthetic::scenario(scratch.path());
+  const reports::StudyResult empty{&scenario, {}};
+  const auto found = reports::compare(empty, std::filesystem::path(DEM_SOURCE_DIR) / "assets/published");
+  CHECK(found.rows.size() >= 25);
+  CHECK(found.scale == "paper");
+  std::vector<std::string> ids;
+  for (const Comparison& row : found.rows) {
+    CAPTURE(row.id);
+    CHECK(row.verdict == Verdict::not_computed);
+    CHECK_FALSE(row.source.empty());
+    ids.push_back(row.id);
+  }
+  std::ranges::sort(ids);
+  CHECK(std::ranges::adjacent_find(ids) == ids.end());
+}
