@@ -146,7 +146,9 @@ void add_discs(Triangles& out, const Scene& scene, const View& view, const Discs
     out.polygon(face, shade(discs.colour[i], 0.78 + 0.22 * facing));
     face.push_back(face.front());
     const double width = std::clamp(0.18 * radius_px, 0.6, 1.4);
-    ribbon(out, view, face, Polyline{{}, shade(discs.colour[i], 0.45), width, Line::solid}, 0.4);
+    // Around a small disc a dark edge would be most of what is seen.
+    const double tone = std::clamp(1.05 - 0.1 * radius_px, 0.45, 0.85);
+    ribbon(out, view, face, Polyline{{}, shade(discs.colour[i], tone), width, Line::solid}, 0.4);
   }
 }
 

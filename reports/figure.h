@@ -34,10 +34,12 @@ struct TextTable {
   std::vector<std::vector<std::string>> rows;
 };
 
-/// An entry of a legend composed by the page: a swatch (disc or square), text, and a count or note.
+/// An entry of a legend composed by the page: a swatch, its text, and what differs from picture to picture: a count.
+/// Pictures beside each other whose colours and texts agree share one legend, and keep their counts.
 struct LegendEntry {
   render::Colour colour;
   std::string text;
+  std::string count{};
 };
 
 /// A scene with what the page writes around it.

@@ -41,7 +41,7 @@ std::string command(const StudyResult& study, const ReportOptions& options) {
 }  // namespace
 
 std::string page(const StudyResult& study, const Comparisons& comparisons, const std::vector<DrawnFigure>& figures,
-                 const ReportOptions& options) {
+                 const ReportOptions& options, Images images) {
   const dem::Scenario& scenario = *study.scenario;
   kainjow::mustache::mustache pattern(dem::read_file(options.assets / "report.html"));
   if (!pattern.is_valid()) {
@@ -54,7 +54,7 @@ std::string page(const StudyResult& study, const Comparisons& comparisons, const
   data.set("findings", findings_data(study, comparisons, figures));
   data.set("results", results_data(study));
   data.set("published", comparisons_data(comparisons));
-  data.set("figures", figures_data(figures, options.folder));
+  data.set("figures", figures_data(figures, images == Images::embedded ? options.folder : std::filesystem::path()));
   data.set("ledger", ledger_data(study));
   data.set("checks", checks_data(study));
   data.set("notes", notes_data(study));

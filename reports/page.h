@@ -1,5 +1,5 @@
 #pragma once
-// The page: one self-contained HTML file (pictures as data URIs, style sheet inlined), from assets/report.html and report.css.
+// The page: one HTML file from assets/report.html and report.css, with the style sheet inlined.
 #include <string>
 #include <vector>
 
@@ -9,9 +9,13 @@
 
 namespace reports {
 
+/// Pictures as data URIs, so that the page is whole in itself; or named, for a page that lies in the output folder while
+/// the PDF is printed (reading megabytes of base64 is slow).
+enum class Images { embedded, linked };
+
 /// Throws dem::EnvironmentError when an asset is missing or broken.
 std::string page(const StudyResult& study, const Comparisons& comparisons, const std::vector<DrawnFigure>& figures,
-                 const ReportOptions& options);
+                 const ReportOptions& options, Images images = Images::embedded);
 
 /// RFC 4648.
 std::string base64(std::string_view bytes);

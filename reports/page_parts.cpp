@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "engine/core/files.h"
 #include "reports/ledger.h"
@@ -92,13 +93,26 @@ std::string specimen_text(const StudyResult& study) {
   return {};
 }
 
-std::string amount_text(const Amount& amount, const std::string& unit) {
-  const std::string tail = unit.empty() ? "" : " " + unit;
-  if (const auto* text = std::get_if<std::string>(&amount)) return *text;
-  if (const auto* range = std::get_if<std::pair<double, double>>(&amount)) {
-    return number(range->first, 4) + " to " + number(range->second, 4) + tail;
+std::string published_text(const Comparison& row) {
+  const std::string tail = row.unit.empty() ? "" : " " + row.unit;
+  if (const auto* text = std::get_if<std::string>(&row.published)) return *text;
+  if (const auto* range = std::get_if<std::pair<double, double>>(&row.published)) {
+    return shortest(range->first) + " to " + shortest(range->second) + tail;
   }
-  return number(std::get<double>(amount), 4) + tail;
+  return shortest(std::get<double>(row.published)) + tail;
+}
+
+// Three significant digits, or as many as the published number has.
+std::string computed_text(const Comparison& row) {
+  if (!row.computed) return "–";
+  if (const auto* text = std::get_if<std::string>(&*row.computed)) return *text;
+  std::size_t digits = 3;
+  if (const auto* published = std::get_if<double>(&row.published)) {
+    const std::string text = shortest(*published);
+    const auto figures = static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return c >= '0' && c <= '9'; }));
+    if (std::abs(*published) >= 1) digits = std::max(digits, figures);
+  }
+  return number(std::get<double>(*row.computed), static_cast<int>(digits)) + (row.unit.empty() ? "" : " " + row.unit);
 }
 
 // Of a share of something, "%" becomes points.
@@ -112,8 +126,8 @@ std::string deviation_text(const Comparison& row) {
 
 std::string tolerance_text(const Comparison& row) {
   if (!row.tolerance) return row.kind == "trend" ? "by sign" : "–";
-  if (row.relative) return "± " + number(100 * *row.tolerance, 2) + " %";
-  return "± " + number(*row.tolerance, 2) + (row.unit.empty() ? "" : " " + difference_unit(row.unit));
+  if (row.relative) return "± " + shortest(100 * *row.tolerance) + " %";
+  return "± " + shortest(*row.tolerance) + (row.unit.empty() ? "" : " " + difference_unit(row.unit));
 }
 
 std::string data_uri(const std::filesystem::path& file) {
@@ -126,19 +140,57 @@ std::string colour_code(const render::Colour& colour) {
   return fmt::format("#{:02x}{:02x}{:02x}", part(colour.red), part(colour.green), part(colour.blue));
 }
 
-PageData panel_data(const DrawnPanel& panel, const std::filesystem::path& folder) {
+PageData legend_data(const std::vector<LegendEntry>& entries) {
+  PageData legend = new_list();
+  for (const LegendEntry& entry : entries) {
+    PageData item;
+    item.set("colour", colour_code(entry.colour));
+    item.set("text", entry.text.empty() || entry.count.empty() ? entry.text + entry.count : entry.text + ": " + entry.count);
+    legend.push_back(item);
+  }
+  return legend;
+}
+
+/// What the pictures of a row have in common is said once, below the row.
+struct Shared {
+  bool caption = false, legend = false;
+};
+
+bool same_key(const std::vector<LegendEntry>& a, const std::vector<LegendEntry>& b) {
+  return std::ranges::equal(a, b, [](const LegendEntry& x, const LegendEntry& y) {
+    return x.text == y.text && colour_code(x.colour) == colour_code(y.colour);
+  });
+}
+
+Shared shared_by(std::span<const DrawnPanel> row) {
+  if (row.size() < 2) return {};
+  const DrawnPanel& first = row.front();
+  return {!first.caption.empty() &&
+              std::ranges::all_of(row, [&](const auto& p) { return p.caption == first.caption && !p.label.empty(); }),
+          !first.legend.empty() && std::ranges::all_of(row, [&](const auto& p) { return same_key(p.legend, first.legend); })};
+}
+
+// The counts alone, once the row says what the colours mean.
+std::vector<LegendEntry> counts_of(std::vector<LegendEntry> legend) {
+  std::erase_if(legend, [](const LegendEntry& entry) { return entry.count.empty(); });
+  for (LegendEntry& entry : legend) entry.text.clear();
+  return legend;
+}
+
+PageData panel_data(const DrawnPanel& panel, const std::filesystem::path& folder, const Shared& shared) {
   PageData data;
   data.set("letter", panel.letter);
   data.set("has_letter", !panel.letter.empty());
-  data.set("caption", panel.caption);
+  data.set("caption", shared.caption ? "" : panel.caption);
   data.set("alt", panel.alt);
   data.set("label", panel.label);
   data.set("has_label", !panel.label.empty());
   data.set("note", panel.note);
   data.set("has_note", !panel.note.empty());
   data.set("has_image", !panel.image.empty());
+  data.set("shape", panel.height > panel.width * 3 / 2 ? "tall" : "wide-shape");
   if (!panel.image.empty()) {
-    data.set("image", data_uri(folder / panel.image));
+    data.set("image", folder.empty() ? panel.image : data_uri(folder / panel.image));
     data.set("has_size", panel.width > 0);
     data.set("width", std::to_string(panel.width));
     data.set("height", std::to_string(panel.height));
@@ -146,15 +198,9 @@ PageData panel_data(const DrawnPanel& panel, const std::filesystem::path& folder
   data.set("has_bar", panel.bar.percent > 0);
   data.set("bar_text", panel.bar.text);
   data.set("bar_percent", fmt::format("{:.2f}", panel.bar.percent));
-  PageData legend = new_list();
-  for (const LegendEntry& entry : panel.legend) {
-    PageData item;
-    item.set("colour", colour_code(entry.colour));
-    item.set("text", entry.text);
-    legend.push_back(item);
-  }
-  data.set("has_legend", !panel.legend.empty());
-  data.set("legend", legend);
+  const std::vector<LegendEntry> legend = shared.legend ? counts_of(panel.legend) : panel.legend;
+  data.set("has_legend", !legend.empty());
+  data.set("legend", legend_data(legend));
   data.set("has_table", !panel.table.head.empty());
   data.set("table_head", cells(panel.table.head));
   PageData rows = new_list();
@@ -181,14 +227,24 @@ PageData rows_data(const std::vector<DrawnPanel>& panels, const std::filesystem:
   PageData rows = new_list();
   for (std::size_t i = 0; i < panels.size();) {
     const int per_row = std::max(1, panels[i].per_row);
+    std::size_t end = i;
+    while (end < panels.size() && end - i < static_cast<std::size_t>(per_row) && std::max(1, panels[end].per_row) == per_row) ++end;
+    const std::span<const DrawnPanel> members(&panels[i], end - i);
+    const Shared shared = shared_by(members);
+    PageData list = new_list();
+    for (const DrawnPanel& panel : members) list.push_back(panel_data(panel, folder, shared));
+    std::vector<LegendEntry> key = shared.legend ? members.front().legend : std::vector<LegendEntry>{};
+    for (LegendEntry& entry : key) entry.count.clear();
     PageData row;
-    PageData members = new_list();
-    for (int taken = 0; i < panels.size() && taken < per_row && std::max(1, panels[i].per_row) == per_row; ++taken) {
-      members.push_back(panel_data(panels[i++], folder));
-    }
     row.set("per_row", std::to_string(per_row));
-    row.set("panels", members);
+    row.set("panels", list);
+    row.set("has_shared", shared.caption || shared.legend);
+    row.set("has_shared_caption", shared.caption);
+    row.set("letters", members.front().letter + "–" + members.back().letter);
+    row.set("shared_caption", members.front().caption);
+    row.set("shared_legend", legend_data(key));
     rows.push_back(row);
+    i = end;
   }
   return rows;
 }
@@ -239,16 +295,13 @@ std::optional<PageData> ledger_table(const StudyResult& study, const std::vector
 
 std::string case_label(const StudyResult& study, const CaseResult& result) {
   if (!result.record) return words(result.id);
-  const std::string test = test_of(*result.record);
   std::vector<std::string> parts;
   for (const auto& [name, value] : result.record->parameters) {
     if (name == "test") continue;
-    const auto differs = [&, &own_name = name, &own = value](const CaseResult& other) {
-      if (!other.record) return false;
-      return std::ranges::any_of(other.record->parameters,
-                                 [&](const auto& p) { return p.first == own_name && p.second != own; });
-    };
-    if (name == "aspect_ratio" || std::ranges::any_of(study.cases, differs)) {
+    const auto first = std::ranges::find_if(study.cases, [](const CaseResult& c) { return c.record != nullptr; });
+    const auto base = std::ranges::find(first->record->parameters, name, [](const auto& p) { return p.first; });
+    const bool usual = base != first->record->parameters.end() && base->second == value;
+    if (name == "aspect_ratio" || !usual) {
       parts.push_back(parameter_name(name) + " " + parameter_text(value));
     }
   }
@@ -324,15 +377,24 @@ PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
     if (!result.record && !result.error.empty()) add("Case " + result.id + " failed: " + result.error, "bad");
   }
   std::size_t checks = 0;
-  std::vector<std::string> broken;
+  std::size_t broken_checks = 0;
+  std::vector<std::pair<std::string, std::vector<std::string>>> broken;  // by check
   for (const CaseResult& result : study.cases) {
     if (!result.record) continue;
     for (const dem::Check& check : result.record->checks) {
       ++checks;
-      if (!check.held) broken.push_back(words(check.id) + " of " + result.id);
+      if (check.held) continue;
+      ++broken_checks;
+      auto group = std::ranges::find(broken, check.id, [](const auto& g) { return g.first; });
+      if (group == broken.end()) group = broken.insert(broken.end(), {check.id, {}});
+      group->second.push_back(result.id);
     }
   }
-  if (!broken.empty()) add("Checks that did not hold: " + listed(broken) + ".", "bad");
+  if (!broken.empty()) {
+    std::vector<std::string> parts;
+    for (const auto& [check, cases] : broken) parts.push_back(words(check) + " (" + joined(cases, ", ") + ")");
+    add(fmt::format("{} of {} checks did not hold: {}.", broken_checks, checks, joined(parts, "; ")), "bad");
+  }
   else if (checks > 0) add(fmt::format("All {} checks of the runs held.", checks), "good");
   const auto number_of = [&](Verdict verdict) {
     return std::ranges::count(comparisons.rows, verdict, &Comparison::verdict);
@@ -340,12 +402,23 @@ PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
   if (!comparisons.rows.empty()) {
     std::vector<std::string> missed;
     for (const Comparison& row : comparisons.rows) {
-      if (row.verdict == Verdict::missed) missed.push_back(row.quantity + " (" + deviation_text(row) + ")");
+      if (row.verdict != Verdict::missed) continue;
+      missed.push_back(row.quantity + (row.deviation ? " (" + deviation_text(row) + ")" : ""));
     }
     std::string text = fmt::format("{} of {} published numbers and trends are met", number_of(Verdict::met),
                                    comparisons.rows.size());
     if (number_of(Verdict::not_computed) > 0) text += fmt::format(", {} could not be computed", number_of(Verdict::not_computed));
-    text += missed.empty() ? "." : fmt::format(", {} are missed: {}.", missed.size(), joined(missed, "; "));
+    constexpr std::size_t named = 6;
+    if (!missed.empty()) {
+      const std::size_t others = missed.size() > named ? missed.size() - named : 0;
+      text += fmt::format(", {} missed: ", missed.size());
+      missed.resize(missed.size() - others);
+      text += joined(missed, "; ") + (others > 0 ? fmt::format("; and {} more in the table", others) : "");
+    }
+    text += ".";
+    if (comparisons.scale != study.scenario->scale()) {
+      text += " The published numbers belong to the scale “" + comparisons.scale + "”.";
+    }
     add(text, missed.empty() ? "good" : "bad");
   }
   for (const DrawnFigure& figure : figures) {
@@ -393,10 +466,10 @@ PageData comparisons_data(const Comparisons& comparisons) {
     item.set("source", row.source);
     item.set("statement", row.statement);
     item.set("has_statement", !row.statement.empty());
-    item.set("published_value", amount_text(row.published, row.unit));
+    item.set("published_value", published_text(row));
     item.set("published_detail", row.published_detail);
     item.set("has_published_detail", !row.published_detail.empty());
-    item.set("computed_value", row.computed ? amount_text(*row.computed, row.unit) : "–");
+    item.set("computed_value", computed_text(row));
     item.set("detail", row.detail);
     item.set("has_detail", !row.detail.empty());
     item.set("deviation", deviation_text(row));
@@ -444,20 +517,28 @@ PageData ledger_data(const StudyResult& study) {
 }
 
 PageData checks_data(const StudyResult& study) {
-  PageData list = new_list();
+  // By check, so that its meaning is said once.
+  std::vector<std::pair<const CaseResult*, const dem::Check*>> all;
   for (const CaseResult& result : study.cases) {
     if (!result.record) continue;
-    for (const dem::Check& check : result.record->checks) {
-      PageData item;
-      item.set("case", result.id);
-      item.set("check", capital(words(check.id)));
-      item.set("meaning", check.meaning);
-      item.set("value", number(check.value, 2));
-      item.set("limit", number(check.limit, 2));
-      item.set("verdict", check.held ? "held" : "broken");
-      item.set("verdict_class", check.held ? "met" : "missed");
-      list.push_back(item);
-    }
+    for (const dem::Check& check : result.record->checks) all.emplace_back(&result, &check);
+  }
+  std::ranges::stable_sort(all, {}, [](const auto& entry) { return entry.second->id; });
+  PageData list = new_list();
+  std::string_view last;
+  for (const auto& [result, entry] : all) {
+    const dem::Check& check = *entry;
+    PageData item;
+    item.set("case", result->id);
+    item.set("check", capital(words(check.id)));
+    item.set("meaning", check.meaning);
+    item.set("has_meaning", check.id != last);
+    last = check.id;
+    item.set("value", number(check.value, 2));
+    item.set("limit", number(check.limit, 2));
+    item.set("verdict", check.held ? "held" : "broken");
+    item.set("verdict_class", check.held ? "met" : "missed");
+    list.push_back(item);
   }
   return list;
 }

@@ -20,13 +20,14 @@ PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
                        const std::vector<DrawnFigure>& figures);                  ///< what came out, in short
 PageData results_data(const StudyResult& study);                                  ///< a table of results for each test
 PageData comparisons_data(const Comparisons& comparisons);
+/// Pictures are read from `folder` and embedded; named when it is empty.
 PageData figures_data(const std::vector<DrawnFigure>& figures, const std::filesystem::path& folder);
 PageData ledger_data(const StudyResult& study);
 PageData checks_data(const StudyResult& study);
 PageData notes_data(const StudyResult& study);
 
-/// "AR 2", "AR 1, seed scale 0.675": the parameters (but the test) of a case that vary among those of its test; the id
-/// when nothing varies or there is no record.
+/// "AR 2", "AR 1, seed scale 0.675": the aspect ratio and what else sets a case apart from the first one of the study; the
+/// id when there is neither, or no record.
 std::string case_label(const StudyResult& study, const CaseResult& result);
 
 }  // namespace reports

@@ -14,8 +14,8 @@
 namespace reports {
 namespace {
 
-constexpr int panel_width = 460;
-constexpr int panel_height = 350;
+constexpr int panel_width = 440;
+constexpr int panel_height = 330;
 
 double largest(std::span<const double> values) {
   double most = 0;
@@ -153,7 +153,10 @@ FigureContent energy_figure(const StudyResult& study, std::string_view test, con
     residuals.x.title = x_title;
     residuals.left.title = "|Residual| / work";
     residuals.left.logarithmic = true;
-    if (std::isfinite(limit)) residuals.left.high = 10 * std::max(limit, worst);
+    if (std::isfinite(limit)) {
+      residuals.left.high = 10 * std::max(limit, worst);
+      residuals.left.low = std::min(1e-6 * limit, 0.1 * worst);
+    }
     residuals.legend = render::Chart::Legend::bottom_right;
     residuals.width = panel_width;
     residuals.height = panel_height;

@@ -102,13 +102,13 @@ std::string by_case(const std::vector<SeriesCase>& cases, const std::function<do
   std::vector<std::string> items;
   for (const SeriesCase& item : cases) {
     const double v = value(*item.record);
-    if (std::isfinite(v)) items.push_back(number(v, digits));
+    if (std::isfinite(v)) items.push_back(digits > 0 ? number(v, digits) : count(v));
   }
   if (items.size() != cases.size()) {  // some are missing: say which is which
     items.clear();
     for (const SeriesCase& item : cases) {
       const double v = value(*item.record);
-      if (std::isfinite(v)) items.push_back(number(v, digits) + " (" + item.label + ")");
+      if (std::isfinite(v)) items.push_back((digits > 0 ? number(v, digits) : count(v)) + " (" + item.label + ")");
     }
   }
   return items.empty() ? "not measured" : listed(items) + (unit.empty() ? "" : " " + std::string(unit));

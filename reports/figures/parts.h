@@ -45,7 +45,7 @@ Panel note_panel(std::string id, std::string caption, std::string text);
 /// Result of a record, or NaN.
 double result_or_nan(const dem::Record& record, std::string_view name);
 
-/// "AR 1 206.8, AR 2 201.3 and AR 3 198.4 MPa".
+/// "206.8, 201.3 and 198.4 MPa", with the labels of the cases when some have no value. `digits` significant ones; 0: a count.
 std::string by_case(const std::vector<SeriesCase>& cases, const std::function<double(const dem::Record&)>& value,
                     int digits, std::string_view unit);
 

@@ -44,7 +44,7 @@ std::string at_strain(const dem::Table& moment) {
   const std::string strain = moment.attribute("strain");
   const std::string stress = moment.attribute("stress");
   if (strain.empty() || stress.empty()) return {};
-  return fmt::format("Axial strain {} %, stress {} MPa.", number(100 * std::stod(strain), 3),
+  return fmt::format(", {} % strain, {} MPa", number(100 * std::stod(strain), 3),
                      number(1e-6 * std::stod(stress), 3));
 }
 
@@ -70,6 +70,10 @@ std::string weakest_boundary(const dem::Record& record, std::size_t count) {
                      names.at(static_cast<std::size_t>(most->first.second)));
 }
 
+std::string discs_note(double scale) {
+  return (scale < 1 ? fmt::format(", drawn {:.1g} times as large as they are", scale) : std::string()) + ".";
+}
+
 }  // namespace
 
 FigureContent crack_maps(const StudyResult& study) {
@@ -78,16 +82,18 @@ FigureContent crack_maps(const StudyResult& study) {
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   const int per_row = cases.size() <= 3 ? 3 : 4;
+  double scale = 1;  // one for all, so that pictures can be compared
+  for (const SeriesCase& item : cases) scale = std::min(scale, legible_disc_scale(*item.record));
   for (const SeriesCase& item : cases) {
     content.panels.push_back({.id = "discs_" + item.id,
-                              .caption = "All cracks as discs in the transparent specimen.",
+                              .caption = "All cracks as discs in the transparent specimen" + discs_note(scale),
                               .alt = crack_alt(*item.record, all_cracks, "Cracks at " + item.label + ":"),
-                              .content = transparent_cracks(*item.record, all_cracks, item.label, 480),
+                              .content = transparent_cracks(*item.record, all_cracks, item.label, 480, scale),
                               .per_row = per_row});
   }
   for (const SeriesCase& item : cases) {
     content.panels.push_back({.id = "section_" + item.id,
-                              .caption = "Cracks within one mean particle diameter of the longitudinal section, over the minerals.",
+                              .caption = "Cracks within half a mean particle diameter of the longitudinal section, over the minerals.",
                               .alt = "Section at " + item.label + " with the traces of the cracks near it over the minerals.",
                               .content = section_cracks(*item.record, all_cracks, item.label, 480),
                               .per_row = per_row});
@@ -136,14 +142,14 @@ FigureContent crack_counts(const StudyResult& study) {
   chart.left.title = "Number of cracks";
   chart.bars = bars;
   chart.legend = render::Chart::Legend::top_left;
-  chart.width = 760;
-  chart.height = 400;
+  chart.width = 640;
+  chart.height = 320;
   content.panels.push_back({.id = "", .caption = "Cracks at the end of loading, by class and aspect ratio.",
                             .alt = joined(said, "; ") + ".", .content = chart});
   std::vector<std::string> parts;
   for (const CrackClass& one : crack_classes()) {
     parts.push_back(std::string(one.name) + " " +
-                    by_case(cases, [&](const dem::Record& r) { return crack_result(r, one); }, 6, ""));
+                    by_case(cases, [&](const dem::Record& r) { return crack_result(r, one); }, 0, ""));
   }
   content.finding = "Cracks at " + joined([&] {
                       std::vector<std::string> labels;
@@ -163,6 +169,7 @@ FigureContent crack_stages(const StudyResult& study) {
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
   const SeriesCase& base = cases.front();
+  const double scale = legible_disc_scale(*base.record);
   std::vector<Panel> discs, sections;
   std::vector<std::string> said;
   for (const Stage& stage : stages) {
@@ -171,12 +178,12 @@ FigureContent crack_stages(const StudyResult& study) {
     const std::size_t so_far = cracks_so_far(*moment);
     said.push_back(count(static_cast<double>(so_far)) + " (" + words(stage.moment) + ")");
     discs.push_back({.id = std::string(stage.moment) + "_discs",
-                     .caption = at_strain(*moment),
+                     .caption = "All cracks so far as discs in the transparent specimen" + discs_note(scale),
                      .alt = crack_alt(*base.record, so_far, std::string(stage.name) + ":"),
-                     .content = transparent_cracks(*base.record, so_far, std::string(stage.name), 340),
+                     .content = transparent_cracks(*base.record, so_far, std::string(stage.name) + at_strain(*moment), 340, scale),
                      .per_row = 5});
     sections.push_back({.id = std::string(stage.moment) + "_section",
-                        .caption = "Near the section.",
+                        .caption = "Cracks within half a mean particle diameter of the longitudinal section, over the minerals.",
                         .alt = std::string(stage.name) + ": traces of the cracks near the section, over the minerals.",
                         .content = section_cracks(*base.record, so_far, std::string(stage.name), 340),
                         .per_row = 5});

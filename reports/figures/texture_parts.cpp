@@ -58,10 +58,13 @@ std::vector<LegendEntry> crack_legend(const std::array<std::size_t, 4>& numbers)
   std::vector<LegendEntry> legend;
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const CrackClass& one = crack_classes()[k];
-    legend.push_back({one.colour, std::string(one.name) + ": " + count(static_cast<double>(numbers[k]))});
+    legend.push_back({one.colour, std::string(one.name), count(static_cast<double>(numbers[k]))});
   }
   return legend;
 }
+
+// Half a mean particle diameter to either side: the slab that the cut particles stand for.
+double section_reach(const dem::Record& record) { return 0.5 * mean_diameter(record); }
 
 bool near_section(const Cracks& cracks, std::size_t i, double distance) {
   return std::abs(cracks.position[3 * i + 1]) <= distance;
@@ -69,7 +72,7 @@ bool near_section(const Cracks& cracks, std::size_t i, double distance) {
 
 std::array<std::size_t, 4> numbers_in_section(const dem::Record& record, std::size_t count) {
   const Cracks cracks = cracks_of(record, count);
-  const double distance = mean_diameter(record);
+  const double distance = section_reach(record);
   std::array<std::size_t, 4> numbers{};
   for (std::size_t i = 0; i < cracks.count; ++i) {
     const std::size_t k = class_of(cracks, i);
@@ -168,7 +171,7 @@ render::Scene section_scene(const dem::Record& record, int width) {
   return scene;
 }
 
-std::vector<render::Discs> crack_discs(const dem::Record& record, std::size_t count) {
+std::vector<render::Discs> crack_discs(const dem::Record& record, std::size_t count, double scale) {
   const Cracks cracks = cracks_of(record, count);
   std::vector<render::Discs> discs(crack_classes().size());
   for (std::size_t i = 0; i < cracks.count; ++i) {
@@ -176,7 +179,7 @@ std::vector<render::Discs> crack_discs(const dem::Record& record, std::size_t co
     if (k >= discs.size()) continue;
     discs[k].centre.push_back({cracks.position[3 * i], cracks.position[3 * i + 1], cracks.position[3 * i + 2]});
     discs[k].normal.push_back({cracks.normal[3 * i], cracks.normal[3 * i + 1], cracks.normal[3 * i + 2]});
-    discs[k].radius.push_back(std::sqrt(cracks.area[i] / std::numbers::pi));
+    discs[k].radius.push_back(scale * std::sqrt(cracks.area[i] / std::numbers::pi));
     discs[k].colour.push_back(crack_classes()[k].colour);
   }
   return discs;
@@ -184,7 +187,7 @@ std::vector<render::Discs> crack_discs(const dem::Record& record, std::size_t co
 
 std::vector<render::Polyline> crack_traces(const dem::Record& record, std::size_t count, double width) {
   const Cracks cracks = cracks_of(record, count);
-  const double distance = mean_diameter(record);
+  const double distance = section_reach(record);
   std::vector<render::Polyline> traces;
   for (std::size_t i = 0; i < cracks.count; ++i) {
     const std::size_t k = class_of(cracks, i);
@@ -214,16 +217,26 @@ std::array<std::size_t, 4> crack_numbers(const dem::Record& record, std::size_t 
   return numbers;
 }
 
-Picture transparent_cracks(const dem::Record& record, std::size_t count, const std::string& label, int width) {
+Picture transparent_cracks(const dem::Record& record, std::size_t count, const std::string& label, int width, double scale) {
   const Size size = size_of(record);
   const double half = 0.5 * size.diameter;
   render::Scene scene;
-  scene.discs = crack_discs(record, count);
+  scene.discs = crack_discs(record, count, scale);
   scene.outline = {render::Outline::Shape::cylinder, {-half, -half, size.z_low}, {half, half, size.z_low + size.height}};
   scene.camera.frame = frame_of(size);
   scene.width = width;
   scene.height = static_cast<int>(std::lround(width * std::max(0.5, size.height / size.diameter)));
   return {.scene = std::move(scene), .label = label, .legend = crack_legend(crack_numbers(record, count))};
+}
+
+double legible_disc_scale(const dem::Record& record) {
+  const Cracks cracks = cracks_of(record, all_cracks);
+  // A disc of any direction covers half its area; half the picture may be covered.
+  const double covered = 0.5 * std::accumulate(cracks.area.begin(), cracks.area.end(), 0.0);
+  const Size size = size_of(record);
+  if (!(covered > 0)) return 1;
+  const double scale = std::sqrt(0.5 * size.diameter * size.height / covered);
+  return std::clamp(0.1 * std::round(10 * scale), 0.2, 1.0);
 }
 
 Picture section_cracks(const dem::Record& record, std::size_t count, const std::string& label, int width) {

@@ -42,14 +42,17 @@ render::Scene specimen_scene(const dem::Record& record, int width);
 /// The same, cut by the plane y = 0 of its axis.
 render::Scene section_scene(const dem::Record& record, int width);
 
-/// The first `count` cracks of a record as discs, or as traces on the plane y = 0: cracks within one mean particle diameter.
-std::vector<render::Discs> crack_discs(const dem::Record& record, std::size_t count);
+/// The first `count` cracks of a record as discs `scale` times their size, or as traces on the
+/// plane y = 0: cracks within half a mean particle diameter of it.
+std::vector<render::Discs> crack_discs(const dem::Record& record, std::size_t count, double scale);
 std::vector<render::Polyline> crack_traces(const dem::Record& record, std::size_t count, double width);
 std::array<std::size_t, 4> crack_numbers(const dem::Record& record, std::size_t count);
 
 /// Two pictures of the first `count` cracks: discs in the transparent specimen, traces on the section.
 inline constexpr std::size_t all_cracks = std::numeric_limits<std::size_t>::max();
-Picture transparent_cracks(const dem::Record& record, std::size_t count, const std::string& label, int width);
+Picture transparent_cracks(const dem::Record& record, std::size_t count, const std::string& label, int width, double scale);
+/// How large to draw the discs, 0.2 to 1: at full size the nearest of some thousand cracks would hide all others.
+double legible_disc_scale(const dem::Record& record);
 Picture section_cracks(const dem::Record& record, std::size_t count, const std::string& label, int width);
 /// "1 204 inter tension, 12 inter shear, ..."
 std::string crack_words(const std::array<std::size_t, 4>& numbers);

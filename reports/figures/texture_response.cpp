@@ -14,8 +14,9 @@
 namespace reports::texture {
 namespace {
 
-constexpr int half_width = 460;   // two beside each other on the page
-constexpr int half_height = 350;
+constexpr int half_width = 440;   // two beside each other on the page
+constexpr int half_height = 310;
+constexpr int curves_height = 380;  // with a legend below
 
 const render::Colour grey{0.35, 0.35, 0.35};
 
@@ -69,8 +70,8 @@ render::Chart stress_and_volume(const dem::Record& record) {
     chart.marks.push_back(moment(one.strain, ""));
   }
   chart.legend = render::Chart::Legend::top_left;
-  chart.width = 720;
-  chart.height = 380;
+  chart.width = 640;
+  chart.height = 300;
   return chart;
 }
 
@@ -80,6 +81,9 @@ render::Chart stiffness_and_cracks(const dem::Record& record) {
   chart.x.title = "Axial strain (%)";
   chart.left.title = "Axial stiffness (GPa)";
   chart.left.low = 0;
+  // At first load the strain is near zero and the ratio senseless: the axis is made for what comes after.
+  const double modulus = result_or_nan(record, "young_modulus_GPa");
+  if (modulus > 0) chart.left.high = 1.5 * modulus;
   chart.right.title = "Cracks so far";
   chart.right.logarithmic = true;
   render::Series stiffness = curve(history, {"axial_strain", "axial_stiffness", 100, 1e-9});
@@ -109,8 +113,8 @@ render::Chart stiffness_and_cracks(const dem::Record& record) {
   }
   for (const Level& one : levels_of(record)) chart.marks.push_back(moment(one.strain, one.symbol));
   chart.legend = render::Chart::Legend::below;
-  chart.width = 720;
-  chart.height = 420;
+  chart.width = 640;
+  chart.height = 350;
   return chart;
 }
 
@@ -132,9 +136,9 @@ render::Chart compression_curves(const std::vector<SeriesCase>& cases) {
       chart.series.push_back(series);
     }
   }
-  chart.legend = render::Chart::Legend::outside_right;
-  chart.width = 760;
-  chart.height = 420;
+  chart.legend = render::Chart::Legend::below;
+  chart.width = half_width;
+  chart.height = curves_height;
   return chart;
 }
 
@@ -150,9 +154,9 @@ render::Chart tension_curves(const std::vector<SeriesCase>& cases) {
     series.line = item.line;
     chart.series.push_back(series);
   }
-  chart.legend = render::Chart::Legend::top_left;
+  chart.legend = render::Chart::Legend::below;
   chart.width = half_width;
-  chart.height = half_height;
+  chart.height = curves_height;
   return chart;
 }
 

@@ -90,9 +90,9 @@ Picture cluster_picture(const SeriesCase& item, std::size_t index, double reach)
   const render::Point front = along(grain.centre, view, -1.2 * reach);
   const double beyond = 1.25;
   scene.lines.push_back({{along(front, a, -beyond * grain.semi_long), along(front, a, beyond * grain.semi_long)},
-                         {0.75, 0.05, 0.05}, 3.0, render::Line::dash});
+                         {0.75, 0.05, 0.05}, 3.5, render::Line::dash});
   scene.lines.push_back({{along(front, across, -beyond * grain.semi_short), along(front, across, beyond * grain.semi_short)},
-                         {0.80, 0.60, 0.0}, 3.0, render::Line::dash});
+                         {0.66, 0.46, 0.0}, 3.5, render::Line::dash});
   scene.camera.direction = view;
   scene.camera.frame = {{{grain.centre[0] - reach, grain.centre[1] - reach, grain.centre[2] - 0.75 * reach},
                          {grain.centre[0] + reach, grain.centre[1] + reach, grain.centre[2] + 0.75 * reach}}};
@@ -100,7 +100,7 @@ Picture cluster_picture(const SeriesCase& item, std::size_t index, double reach)
   scene.height = 480;
   return {.scene = std::move(scene),
           .label = fmt::format("{} ({} particles)", item.label, grain.particles),
-          .legend = {{{0.75, 0.05, 0.05}, "long axis"}, {{0.80, 0.60, 0.0}, "short axis"}}};
+          .legend = {{{0.75, 0.05, 0.05}, "long axis"}, {{0.66, 0.46, 0.0}, "short axis"}}};
 }
 
 std::string mineral_shares(const dem::Record& record) {

@@ -1,0 +1,148 @@
+// The small parts of a report: words and numbers, CSV, sampling, scale bars, summary.json, links.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "reports/csv.h"
+#include "reports/drawing.h"
+#include "reports/ledger.h"
+#include "reports/page.h"
+#include "reports/page_parts.h"
+#include "reports/pdf.h"
+#include "reports/summary.h"
+#include "reports/text.h"
+#include "tests/reports/synthetic.h"
+#include "tests/support/scratch.h"
+
+TEST_CASE("numbers as a reader sees them") {
+  CHECK(reports::number(206.84, 4) == "206.8");
+  CHECK(reports::number(0.18312) == "0.183");
+  CHECK(reports::number(0) == "0");
+  CHECK(reports::number(-28.2) == "\u221228.2");
+  CHECK(reports::number(3.2e-5, 2) == "3.2 × 10⁻⁵");
+  CHECK(reports::number(std::nan("")) == "not a number");
+  CHECK(reports::count(36528) == "36\u202f528");
+  CHECK(reports::count(2590) == "2590");
+  CHECK(reports::shortest(206.8) == "206.8");
+  CHECK(reports::percent(0.1234) == "12.3 %");
+  CHECK(reports::with_sign(reports::fixed(1.5, 1)) == "+1.5");
+  CHECK(reports::with_sign(reports::fixed(-1.5, 1)) == "\u22121.5");
+  CHECK(reports::listed({"a", "b", "c"}) == "a, b and c");
+  CHECK(reports::result_name("crack_damage_MPa") == std::pair<std::string, std::string>("Crack damage stress", "MPa"));
+  CHECK(reports::result_name("new_quantity_GPa") == std::pair<std::string, std::string>("New quantity", "GPa"));
+}
+
+TEST_CASE("CSV quotes what needs it and keeps every point") {
+  CHECK(reports::csv(reports::TextTable{{"a", "b"}, {{"x, y", "say \"z\""}}}) == "a,b\r\n\"x, y\",\"say \"\"z\"\"\"\r\n");
+  render::Chart chart;
+  chart.x.title = "Strain (%)";
+  chart.left.title = "Stress (MPa)";
+  chart.series.resize(1);
+  chart.series[0].label = "AR 1";
+  for (int i = 0; i < 20000; ++i) {
+    chart.series[0].x.push_back(i);
+    chart.series[0].y.push_back(0.5 * i);
+  }
+  const std::string text = reports::csv(chart);
+  CHECK(text.starts_with("series,Strain (%),Stress (MPa)\r\nAR 1,0,0\r\nAR 1,1,0.5\r\n"));
+  CHECK(std::ranges::count(text, '\n') == 20001);
+}
+
+TEST_CASE("a sampled curve keeps its ends, its peak and its lowest point") {
+  render::Chart chart;
+  chart.series.resize(1);
+  render::Series& curve = chart.series[0];
+  for (int i = 0; i < 50000; ++i) {
+    curve.x.push_back(i);
+    curve.y.push_back(std::sin(i * 1e-3));
+  }
+  curve.y[31234] = 7;
+  curve.y[41234] = -7;
+  const auto few = reports::sampled(chart, 10000);
+  CHECK(few.all == 50000);
+  CHECK(few.drawn <= 10000);
+  CHECK(few.drawn > 4000);
+  const render::Series& thin = few.chart.series[0];
+  CHECK(thin.x.front() == 0);
+  CHECK(thin.x.back() == 49999);
+  CHECK(std::ranges::max(thin.y) == 7);
+  CHECK(std::ranges::min(thin.y) == -7);
+  CHECK(std::ranges::is_sorted(thin.x));
+  CHECK(reports::sampled(chart, 50000).chart.series[0].x.size() == 50000);
+}
+
+TEST_CASE("scale bars are round and not too long") {
+  for (const double width : {1.2e-3, 6.25e-3, 12.5e-3, 25e-3, 3.0}) {
+    CAPTURE(width);
+    const auto bar = reports::scale_bar({.metres_per_pixel = width / 500, .width = 500});
+    CHECK(bar.percent > 10);
+    CHECK(bar.percent <= 40.001);
+  }
+  CHECK(reports::scale_bar({.metres_per_pixel = 25e-3 / 500, .width = 500}).text == "10 mm");
+  CHECK(reports::scale_bar({.metres_per_pixel = 0, .width = 500}).percent == 0);
+}
+
+TEST_CASE("base64 and links") {
+  CHECK(reports::base64("") == "");
+  CHECK(reports::base64("f") == "Zg==");
+  CHECK(reports::base64("foobar") == "Zm9vYmFy");
+  CHECK(reports::without_file_links(R"(<a href="figures/a.png">PNG</a> <a href="data/a.csv">CSV</a> <a href="#x">x</a>)") ==
+        R"(<a>PNG</a> <a>CSV</a> <a href="#x">x</a>)");
+}
+
+TEST_CASE("the ledger takes every energy of a history in its role") {
+  const auto terms = reports::ledger_terms(synthetic::compression(1, {.samples = 3}).table("history"));
+  REQUIRE(terms.size() == 8);
+  CHECK(terms.front().role == reports::LedgerTerm::Role::work);
+  CHECK(terms[1].label == "Elastic");
+  CHECK(terms.back().role == reports::LedgerTerm::Role::residual);
+}
+
+TEST_CASE("summary.json has the promised structure") {
+  const test::Scratch scratch;
+  synthetic::Study study(scratch.path(), {.diameter = 3e-3, .height = 6e-3, .samples = 5});
+  study.fail("direct_tension_ar_3", "the solution blew up");
+  study.record("compression_ar_1").results.emplace_back("hoek_brown_m", std::nan(""));
+  const auto result = study.result();
+  const auto comparisons = reports::compare(result, std::filesystem::path(DEM_SOURCE_DIR) / "assets/published");
+  const std::string text = reports::summary_json(result, comparisons, {});
+  const auto json = nlohmann::json::parse(text);
+  CHECK(json.at("scenario") == "ldb_aspect_ratio");
+  CHECK(json.at("scale") == "draft");
+  REQUIRE(json.at("cases").size() == 6);
+  const auto& first = json["cases"][0];
+  CHECK(first.at("id") == "compression_ar_1");
+  CHECK(first.at("parameters").at("aspect_ratio") == 1);
+  CHECK(first.at("results").at("young_modulus_GPa") == 70.3);
+  CHECK(first["results"].at("crack_initiation_MPa").at("strain_0_1_percent").is_number());
+  CHECK(first["results"].at("cracks").at("inter_tension").is_number_integer());
+  CHECK_FALSE(first["results"].contains("hoek_brown_m"));
+  CHECK(json["cases"][5].at("error") == "the solution blew up");
+  CHECK(json.at("checks")[0].at("id") == "compression_ar_1.energy_residual");
+  for (const char* key : {"value", "limit", "held"}) CHECK(json["checks"][0].contains(key));
+  REQUIRE_FALSE(json.at("comparisons").empty());
+  for (const auto& row : json["comparisons"]) {
+    for (const char* key : {"id", "source", "published", "computed", "deviation", "tolerance", "verdict"}) CHECK(row.contains(key));
+  }
+  CHECK(text == reports::summary_json(study.result(), comparisons, {}));
+}
+
+TEST_CASE("run.json nests by dots") {
+  const auto json = nlohmann::json::parse(reports::run_json({{"host", "here"}, {"wall_s.total", 1.5}, {"wall_s.report", 2.0}}));
+  CHECK(json.at("host") == "here");
+  CHECK(json.at("wall_s").at("total") == 1.5);
+}
+
+TEST_CASE("cases are told apart by what sets them apart") {
+  const test::Scratch scratch;
+  const dem::Scenario scenario = synthetic::scenario(scratch.path());
+  dem::Record base, small;
+  base.parameters = {{"test", "compression"}, {"aspect_ratio", 1.0}, {"seed_scale", 1.0}};
+  small.parameters = {{"test", "compression"}, {"aspect_ratio", 1.0}, {"seed_scale", 0.675}};
+  const reports::StudyResult study{&scenario, {{"a", &base, ""}, {"b", &small, ""}, {"c_d", nullptr, "failed"}}};
+  CHECK(reports::case_label(study, study.cases[0]) == "AR 1");
+  CHECK(reports::case_label(study, study.cases[1]) == "AR 1, seed scale 0.675");
+  CHECK(reports::case_label(study, study.cases[2]) == "c d");
+}
