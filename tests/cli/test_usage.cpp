@@ -31,6 +31,19 @@ TEST_CASE("help, version, figures and keys go to stdout and exit with 0") {
   CHECK(std::filesystem::is_empty(folder.path()));
 }
 
+TEST_CASE("the reference of the scenario keys is what the program says of them") {
+  const test::Scratch folder;
+  const std::string said = test::run_program(folder.path(), {"--explain-keys"}).out;
+  const std::string page =
+      "# Scenario keys\n\nThe output of `dem-report --explain-keys`. Quantities are written with their unit, as in\n"
+      "`diameter = \"25 mm\"`.\n\n```text\n" + said + "```\n";
+  const std::filesystem::path kept = DEM_SOURCE_DIR "/docs/scenario-keys.md";
+  if (std::filesystem::exists(kept) && dem::read_file(kept) == page) return;
+  const std::filesystem::path fresh = std::filesystem::current_path() / "scenario-keys.md";
+  dem::write_file(fresh, page);
+  FAIL_CHECK(kept.string() << " is not what --explain-keys says; to refresh it: cp " << fresh.string() << " " << kept.string());
+}
+
 TEST_CASE("wrong usage and wrong input exit with 2, say what would be right, and write nothing") {
   const test::Scratch folder;
   std::ofstream(folder / "typo.toml") << "model = \"grain_texture\"\nseeds = 2\n[scales.draft]\n";
