@@ -1,3 +1,5 @@
+#include <atomic>
+
 #include "engine/core/files.h"
 #include "render/chart_panel.h"
 #include "render/draw.h"
@@ -12,7 +14,14 @@ struct Canvas::Impl {
   Offscreen offscreen;
 };
 
-Canvas::Canvas() : impl_(std::make_unique<Impl>()) {}
+namespace {
+std::atomic<bool> made = false;
+}
+
+Canvas::Canvas() {
+  made = true;
+  impl_ = std::make_unique<Impl>();
+}
 Canvas::~Canvas() = default;
 
 SceneResult Canvas::draw(const Scene& scene, const std::filesystem::path& png, const Provenance& facts) {
@@ -30,6 +39,8 @@ void Canvas::draw(const Chart& chart, const std::filesystem::path& png, const st
   if (!png.empty()) write_png(to_image(impl_->offscreen, sheet, scale), png, facts, Content::drawing);
   if (!svg.empty()) dem::write_file(svg, to_svg(sheet, with_extents));
 }
+
+bool Canvas::any_made() { return made; }
 
 std::string Canvas::gl_renderer() const { return impl_->offscreen.renderer(); }
 

@@ -29,6 +29,8 @@ class Canvas {
             const Provenance& facts);
   SceneResult draw(const Scene& scene, const std::filesystem::path& png, const Provenance& facts);
   [[nodiscard]] std::string gl_renderer() const;  ///< for run.json
+  /// A process that was forked after this became true cannot draw: the threads of the GL driver stayed behind.
+  [[nodiscard]] static bool any_made();
 
  private:
   struct Impl;

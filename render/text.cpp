@@ -6,6 +6,8 @@
 #include <vtkTextRenderer.h>
 
 #include <filesystem>
+#include <map>
+#include <utility>
 
 #include "engine/core/errors.h"
 #include "render/sheet.h"
@@ -50,8 +52,14 @@ const std::string& font_file(bool bold) {
 double run_width(const std::string& text, double size, bool bold) {
   constexpr int measured = 200;
   if (text.empty()) return 0;
-  const int width = box_width("|" + text + "|", measured, bold) - box_width("||", measured, bold);
-  return width * size / measured;
+  // Measuring draws: the same few words are asked for over and over while a chart is laid out.
+  static std::map<std::pair<std::string, bool>, int> known;
+  auto entry = known.find({text, bold});
+  if (entry == known.end()) {
+    const int width = box_width("|" + text + "|", measured, bold) - box_width("||", measured, bold);
+    entry = known.insert({{text, bold}, width}).first;
+  }
+  return entry->second * size / measured;
 }
 
 std::vector<Piece> pieces_of(const std::string& text) {

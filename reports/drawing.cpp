@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "engine/core/errors.h"
@@ -12,6 +13,7 @@
 #include "engine/core/hash.h"
 #include "reports/csv.h"
 #include "reports/text.h"
+#include "reports/workers.h"
 
 namespace reports {
 namespace {
@@ -32,96 +34,117 @@ const Figure& named_figure(const StudyResult& study, std::string_view id) {
   throw dem::InputError("there is no figure '" + std::string(id) + "' of this model", "known are " + listed(known));
 }
 
-/// Draws the panels of one figure.
-class Drawer {
- public:
-  Drawer(const Figure& figure, const ReportOptions& options, render::Canvas& canvas, render::Provenance facts)
-      : figure_(figure), options_(options), canvas_(canvas), facts_(std::move(facts)) {}
+/// A panel on its way to its files.
+struct Job {
+  const Panel* panel = nullptr;
+  std::string name;  // of the files
+  render::Provenance facts;
+};
 
-  DrawnPanel draw(const Panel& panel) {
-    DrawnPanel drawn{.caption = panel.caption, .alt = panel.alt};
-    name_ = std::string(figure_.id) + (panel.id.empty() ? "" : "_" + panel.id);
-    panel_facts_ = facts_;
-    panel_facts_.emplace_back("Title", panel.caption.empty() ? std::string(figure_.title) : panel.caption);
-    panel_facts_.emplace_back("Description", panel.alt);
-    std::visit([&](const auto& content) { put(content, drawn); }, panel.content);
-    if (panel.per_row > 0) drawn.per_row = panel.per_row;
-    return drawn;
-  }
+/// What only drawing tells, as bytes that a process can hand over.
+struct Drawn {
+  render::SceneResult scene;
+  std::array<char, 128> renderer;
+};
 
- private:
-  std::string file(const std::string& folder, const std::string& extension, DrawnPanel& drawn) const {
-    drawn.files.push_back(folder + "/" + name_ + extension);
-    return drawn.files.back();
-  }
+constexpr std::string_view pictures = "figures/", tables = "data/";
 
-  void put(const render::Chart& chart, DrawnPanel& drawn) {
-    const Sampled picture = sampled(chart, points_in_a_picture);
+// The files of a panel, the one to show first.
+std::vector<std::string> files_of(const Panel& panel, const std::string& name) {
+  const std::string picture = std::string(pictures) + name, table = std::string(tables) + name + ".csv";
+  if (std::holds_alternative<render::Chart>(panel.content)) return {picture + ".svg", picture + ".png", table};
+  if (std::holds_alternative<Picture>(panel.content)) return {picture + ".png"};
+  if (std::holds_alternative<TextTable>(panel.content)) return {table};
+  return {picture + ".svg"};
+}
+
+// All of a drawn panel but what only drawing tells.
+DrawnPanel described(const Panel& panel, const std::string& name) {
+  DrawnPanel drawn{.caption = panel.caption, .alt = panel.alt};
+  drawn.files = files_of(panel, name);
+  if (const auto* chart = std::get_if<render::Chart>(&panel.content)) {
+    const Sampled picture = sampled(*chart, points_in_a_picture);
     if (picture.drawn < picture.all) {
       drawn.note = fmt::format("Drawn from {} of {} points; the CSV has all.", count(static_cast<double>(picture.drawn)),
                                count(static_cast<double>(picture.all)));
     }
-    const std::string png = file("figures", ".png", drawn);
-    drawn.image = file("figures", ".svg", drawn);
-    canvas_.draw(picture.chart, options_.folder / png, options_.folder / drawn.image, panel_facts_);
-    dem::write_file(options_.folder / file("data", ".csv", drawn), csv(chart));
-    drawn.width = chart.width;
-    drawn.height = chart.height;
-    drawn.per_row = chart.width > 560 ? 1 : 2;
+    drawn.width = chart->width;
+    drawn.height = chart->height;
+    drawn.per_row = chart->width > 560 ? 1 : 2;
   }
-
-  void put(const Picture& picture, DrawnPanel& drawn) {
-    drawn.image = file("figures", ".png", drawn);
-    const render::SceneResult result = canvas_.draw(picture.scene, options_.folder / drawn.image, panel_facts_);
-    if (picture.scale_bar) drawn.bar = scale_bar(result);
-    drawn.label = picture.label;
-    drawn.legend = picture.legend;
-    drawn.width = result.width;
-    drawn.height = result.height;
+  if (const auto* picture = std::get_if<Picture>(&panel.content)) {
+    drawn.label = picture->label;
+    drawn.legend = picture->legend;
     drawn.per_row = 3;
   }
+  if (const auto* table = std::get_if<TextTable>(&panel.content)) drawn.table = *table;
+  else drawn.image = drawn.files.front();
+  if (panel.per_row > 0) drawn.per_row = panel.per_row;
+  return drawn;
+}
 
-  void put(const TextTable& table, DrawnPanel& drawn) {
-    dem::write_file(options_.folder / file("data", ".csv", drawn), csv(table));
-    drawn.table = table;
+// Writes the files of a panel.
+render::SceneResult draw(const Job& job, const std::filesystem::path& folder, const CanvasSource& canvas) {
+  const auto files = files_of(*job.panel, job.name);
+  render::SceneResult result;
+  if (const auto* chart = std::get_if<render::Chart>(&job.panel->content)) {
+    canvas().draw(sampled(*chart, points_in_a_picture).chart, folder / files[1], folder / files[0], job.facts);
+    dem::write_file(folder / files[2], csv(*chart));
+  } else if (const auto* picture = std::get_if<Picture>(&job.panel->content)) {
+    result = canvas().draw(picture->scene, folder / files[0], job.facts);
+  } else if (const auto* table = std::get_if<TextTable>(&job.panel->content)) {
+    dem::write_file(folder / files[0], csv(*table));
+  } else {
+    dem::write_file(folder / files[0], std::get<std::string>(job.panel->content));
   }
+  return result;
+}
 
-  void put(const std::string& svg, DrawnPanel& drawn) {
-    drawn.image = file("figures", ".svg", drawn);
-    dem::write_file(options_.folder / drawn.image, svg);
+Drawn drawn_by(const Job& job, const std::filesystem::path& folder, const CanvasSource& canvas) {
+  Drawn drawn{draw(job, folder, canvas), {}};
+  const std::string name = canvas().gl_renderer();
+  std::copy_n(name.begin(), std::min(name.size(), drawn.renderer.size() - 1), drawn.renderer.begin());
+  return drawn;
+}
+
+// A GL context that was made before a fork is of no use after it: then all is drawn here.
+std::vector<Drawn> draw_all(const std::vector<Job>& jobs, const ReportOptions& options, const CanvasSource& canvas) {
+  constexpr std::size_t most = 8;  // each holds a GL driver with its own threads
+  const int workers = std::min(options.workers, static_cast<int>(std::min(jobs.size(), most)));
+  if (workers <= 1 || render::Canvas::any_made()) {
+    std::vector<Drawn> all;
+    for (const Job& job : jobs) all.push_back(drawn_by(job, options.folder, canvas));
+    return all;
   }
+  std::optional<render::Canvas> own;  // of each process: still empty at the fork
+  return in_processes<Drawn>(jobs.size(), workers, [&](std::size_t i) {
+    return drawn_by(jobs[i], options.folder, [&]() -> render::Canvas& {
+      if (!own) own.emplace();
+      return *own;
+    });
+  });
+}
 
-  const Figure& figure_;
-  const ReportOptions& options_;
-  render::Canvas& canvas_;
-  render::Provenance facts_;
-  render::Provenance panel_facts_;
-  std::string name_;
-};
-
-DrawnFigure draw_figure(const StudyResult& study, const Figure& figure, const ReportOptions& options,
-                        render::Canvas& canvas, const render::Provenance& study_facts) {
-  DrawnFigure drawn{.figure = &figure};
-  FigureContent content;
+/// What a figure says, before it is drawn.
+FigureContent content_of(const StudyResult& study, const Figure& figure, DrawnFigure& drawn) {
   try {
-    content = figure.make(study);
+    FigureContent content = figure.make(study);
+    drawn.statement = content.statement;
+    drawn.finding = content.finding;
+    return content;
   } catch (const std::out_of_range& missing) {
     drawn.problem = std::string("This figure could not be drawn: ") + missing.what() + ".";
-    return drawn;
+    return {};
   }
-  drawn.statement = content.statement;
-  drawn.finding = content.finding;
-  render::Provenance facts = study_facts;
-  facts.emplace_back("Figure", figure.id);
-  facts.emplace_back("Source", figure.source);
-  Drawer drawer(figure, options, canvas, facts);
-  for (const Panel& panel : content.panels) {
-    drawn.panels.push_back(drawer.draw(panel));
-    DrawnPanel& last = drawn.panels.back();
-    if (content.panels.size() > 1) last.letter = std::string(1, static_cast<char>('a' + (drawn.panels.size() - 1) % 26));
-    drawn.files.insert(drawn.files.end(), last.files.begin(), last.files.end());
-  }
-  return drawn;
+}
+
+Job job_of(const Figure& figure, const Panel& panel, const render::Provenance& study_facts) {
+  Job job{&panel, std::string(figure.id) + (panel.id.empty() ? "" : "_" + panel.id), study_facts};
+  job.facts.emplace_back("Figure", figure.id);
+  job.facts.emplace_back("Source", figure.source);
+  job.facts.emplace_back("Title", panel.caption.empty() ? std::string(figure.title) : panel.caption);
+  job.facts.emplace_back("Description", panel.alt);
+  return job;
 }
 
 // First, lowest, highest and last point of each of `stretches` equal stretches, in their order.
@@ -183,8 +206,8 @@ std::vector<const Figure*> chosen_figures(const StudyResult& study, const std::s
   return chosen;
 }
 
-std::vector<DrawnFigure> draw_figures(const StudyResult& study, const std::vector<const Figure*>& chosen,
-                                      const ReportOptions& options, render::Canvas& canvas) {
+Drawings draw_figures(const StudyResult& study, const std::vector<const Figure*>& chosen, const ReportOptions& options,
+                      const CanvasSource& canvas) {
   const std::vector<std::string> everything{""};
   const render::Provenance facts{{"Scenario", study.scenario->name()},
                                  {"Scale", study.scenario->scale()},
@@ -192,12 +215,37 @@ std::vector<DrawnFigure> draw_figures(const StudyResult& study, const std::vecto
                                  {"Engine", options.engine_version}};
   dem::make_folder(options.folder / "figures");
   dem::make_folder(options.folder / "data");
-  std::vector<DrawnFigure> drawn;
+  Drawings made;
+  std::vector<FigureContent> contents;  // jobs point into their panels
   for (const Figure* figure : chosen) {
-    drawn.push_back(draw_figure(study, *figure, options, canvas, facts));
-    drawn.back().number = static_cast<int>(drawn.size());
+    DrawnFigure& drawn = made.figures.emplace_back(DrawnFigure{.figure = figure});
+    drawn.number = static_cast<int>(made.figures.size());
+    contents.push_back(content_of(study, *figure, drawn));
   }
-  return drawn;
+  std::vector<Job> jobs;
+  for (std::size_t f = 0; f < chosen.size(); ++f) {
+    for (const Panel& panel : contents[f].panels) jobs.push_back(job_of(*chosen[f], panel, facts));
+  }
+  const std::vector<Drawn> results = draw_all(jobs, options, canvas);
+  auto job = jobs.begin();
+  auto result = results.begin();
+  for (std::size_t f = 0; f < chosen.size(); ++f) {
+    DrawnFigure& drawn = made.figures[f];
+    for (const Panel& panel : contents[f].panels) {
+      DrawnPanel shown = described(panel, (job++)->name);
+      const render::SceneResult& scene = (result++)->scene;
+      if (const auto* picture = std::get_if<Picture>(&panel.content)) {
+        shown.width = scene.width;
+        shown.height = scene.height;
+        if (picture->scale_bar) shown.bar = scale_bar(scene);
+      }
+      if (contents[f].panels.size() > 1) shown.letter = std::string(1, static_cast<char>('a' + drawn.panels.size() % 26));
+      drawn.files.insert(drawn.files.end(), shown.files.begin(), shown.files.end());
+      drawn.panels.push_back(std::move(shown));
+    }
+  }
+  if (!results.empty()) made.gl_renderer = results.front().renderer.data();
+  return made;
 }
 
 Sampled sampled(render::Chart chart, std::size_t points) {

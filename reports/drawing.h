@@ -43,9 +43,14 @@ struct DrawnFigure {
 /// Throws dem::InputError when `only` is no figure of this model.
 std::vector<const Figure*> chosen_figures(const StudyResult& study, const std::string& only);
 
-/// Draws them into options.folder.
-std::vector<DrawnFigure> draw_figures(const StudyResult& study, const std::vector<const Figure*>& chosen,
-                                      const ReportOptions& options, render::Canvas& canvas);
+struct Drawings {
+  std::vector<DrawnFigure> figures;
+  std::string gl_renderer;           ///< "" when nothing was drawn
+};
+
+/// Draws them into options.folder, in options.workers processes, or in this one with the canvas. Same bytes either way.
+Drawings draw_figures(const StudyResult& study, const std::vector<const Figure*>& chosen, const ReportOptions& options,
+                      const CanvasSource& canvas);
 
 /// The chart with no more than `points` points in all its curves: of each stretch of a curve the first, lowest, highest
 /// and last point stay, so that no peak is lost. Unchanged when it has no more.

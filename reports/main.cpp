@@ -181,9 +181,13 @@ bool run(const dem::Study& study, const cli::CommandLine& line, dem::ProgressPri
   report.only = line.figure;
   report.command = cli::command_text(line, study.scenario.file());
   report.engine_version = DEM_VERSION;
+  report.workers = line.threads;
   progress.say("drawing the figures and the report");
-  if (!canvas) canvas.emplace();
-  const reports::ReportOutcome made = reports::make_report(result, report, *canvas, run_facts(line, outcomes));
+  const auto own_canvas = [&]() -> render::Canvas& {
+    if (!canvas) canvas.emplace();
+    return *canvas;
+  };
+  const reports::ReportOutcome made = reports::make_report(result, report, own_canvas, run_facts(line, outcomes));
   if (!line.quiet) {
     for (const fs::path& file : made.files) std::cout << file.string() << "\n" << std::flush;
   }

@@ -45,13 +45,14 @@ std::vector<char*> environment() {
 }
 
 // Runs weasyprint with its messages in `log`; returns its exit status.
-int run_weasyprint(const std::string& html, const std::string& pdf, const std::string& log) {
+int run_weasyprint(const std::string& html, const std::string& style, const std::string& pdf, const std::string& log) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
-  std::array<std::string, 7> words{"weasyprint", "--pdf-variant", "pdf/ua-1", "--encoding", "utf-8", html, pdf};
+  std::array<std::string, 9> words{"weasyprint", "--pdf-variant", "pdf/ua-1", "--encoding", "utf-8",
+                                   "--stylesheet", style, html, pdf};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -91,12 +92,15 @@ std::string without_file_links(std::string html) {
   return html;
 }
 
-void print_pdf(const std::string& html, const std::filesystem::path& pdf) {
+void print_pdf(const std::string& html, const std::filesystem::path& print_style, const std::filesystem::path& pdf) {
+  if (!std::filesystem::exists(print_style)) {
+    throw dem::EnvironmentError("the style sheet " + print_style.string() + " is missing");
+  }
   dem::write_aside(pdf, [&](const std::filesystem::path& aside) {
     const Temporary source(aside.string() + ".html");
     const Temporary log(aside.string() + ".log");
     dem::write_file(source.path(), without_file_links(html));
-    const int status = run_weasyprint(source.path(), aside, log.path());
+    const int status = run_weasyprint(source.path(), print_style, aside, log.path());
     const std::string messages = dem::read_file(log.path());
     const std::string errors = errors_in(messages);
     if (!errors.empty()) throw dem::EnvironmentError("weasyprint could not print the report: " + errors);

@@ -24,12 +24,13 @@ bool all_held(const StudyResult& study) {
 
 }  // namespace
 
-ReportOutcome make_report(const StudyResult& study, const ReportOptions& options, render::Canvas& canvas,
+ReportOutcome make_report(const StudyResult& study, const ReportOptions& options, const CanvasSource& canvas,
                           const RunFacts& run) {
   const auto start = std::chrono::steady_clock::now();
   const auto chosen = chosen_figures(study, options.only);
   const Comparisons comparisons = compare(study, options.assets / "published");
-  const auto drawn = draw_figures(study, chosen, options, canvas);
+  const Drawings drawings = draw_figures(study, chosen, options, canvas);
+  const std::vector<DrawnFigure>& drawn = drawings.figures;
 
   ReportOutcome outcome;
   outcome.checks_held = all_held(study);
@@ -42,12 +43,17 @@ ReportOutcome make_report(const StudyResult& study, const ReportOptions& options
   };
   written("summary.json", [&](const auto& path) { dem::write_file(path, summary_json(study, comparisons, drawn)); });
   if (options.html || options.pdf) {
-    const std::string html = page(study, comparisons, drawn, options);
-    if (options.html) written("report.html", [&](const auto& path) { dem::write_file(path, html); });
-    if (options.pdf) written("report.pdf", [&](const auto& path) { print_pdf(html, path); });
+    if (options.html) {
+      const std::string html = page(study, comparisons, drawn, options, Images::embedded);
+      written("report.html", [&](const auto& path) { dem::write_file(path, html); });
+    }
+    if (options.pdf) {
+      const std::string html = page(study, comparisons, drawn, options, Images::linked);
+      written("report.pdf", [&](const auto& path) { print_pdf(html, options.assets / "print.css", path); });
+    }
   }
   RunFacts facts = run;
-  facts.emplace_back("gl_renderer", canvas.gl_renderer());
+  facts.emplace_back("gl_renderer", drawings.gl_renderer);
   facts.emplace_back("report_seconds",
                      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   dem::write_file(options.folder / "run.json", run_json(facts));

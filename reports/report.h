@@ -4,6 +4,7 @@
 // Every file is written aside (same folder, temporary name) and renamed when whole. Everything but run.json depends on
 // the records, the scenario and the assets only: the same input gives the same bytes.
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -22,6 +23,7 @@ struct ReportOptions {
   std::string only;              ///< draw only this figure; "": all that belong to the scenario
   std::string command;           ///< how to make it again, one line without paths of this machine: shown in the report
   std::string engine_version;    ///< "0.1.0"
+  int workers = 1;               ///< processes to draw in; the same bytes with any number
 };
 
 /// What varies between runs of the same input, for run.json: {"host", ...}, {"threads", 2.0}; a dot nests ("wall_s.total").
@@ -34,10 +36,13 @@ struct ReportOutcome {
   std::vector<std::filesystem::path> files;  ///< the pages: report.html, report.pdf, summary.json
 };
 
+/// The canvas of this process, made when first asked for: processes forked to draw must not inherit one.
+using CanvasSource = std::function<render::Canvas&()>;
+
 /// Makes the report of a study. A failed case appears with its error in its figures' place.
 /// Throws dem::InputError when `only` names no figure of this scenario, dem::EnvironmentError when an asset is missing or
 /// broken, a file cannot be written, or WeasyPrint is missing or reports an error.
-ReportOutcome make_report(const StudyResult& study, const ReportOptions& options, render::Canvas& canvas,
+ReportOutcome make_report(const StudyResult& study, const ReportOptions& options, const CanvasSource& canvas,
                           const RunFacts& run);
 
 /// The text of --list-figures: id, source, title and scenarios of every figure, a line each, grouped by model.

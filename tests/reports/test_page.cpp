@@ -1,27 +1,226 @@
 // The whole report from made-up records: files, page and PDF.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdio>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
 
+#include "engine/core/errors.h"
 #include "engine/core/files.h"
+#include "reports/pdf.h"
 #include "reports/report.h"
 #include "tests/reports/synthetic.h"
 #include "tests/support/scratch.h"
 
-TEST_CASE("a report is made whole") {
-  const test::Scratch scratch;
-  const synthetic::Study study(scratch.path());
-  const char* kept = std::getenv("DEM_KEEP_REPORT");
-  const std::filesystem::path folder = kept ? std::filesystem::path(kept) : scratch / "out";
+namespace {
+
+const std::filesystem::path assets = std::filesystem::path(DEM_SOURCE_DIR) / "assets";
+
+render::Canvas& canvas() {
+  static render::Canvas one;
+  return one;
+}
+
+struct Ran {
+  int status = 0;
+  std::string output;
+};
+
+Ran run(const std::string& command) {
+  FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  Ran ran;
+  std::array<char, 4096> buffer{};
+  for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) ran.output.append(buffer.data(), n);
+  ran.status = ::pclose(pipe);
+  return ran;
+}
+
+reports::ReportOptions options_for(const std::filesystem::path& folder) {
   reports::ReportOptions options;
   options.folder = folder;
-  options.assets = std::filesystem::path(DEM_SOURCE_DIR) / "assets";
+  options.assets = assets;
   options.engine_version = "0.1.0";
-  render::Canvas canvas;
-  const auto outcome = reports::make_report(study.result(), options, canvas, {{"threads", 2.0}});
-  CHECK(outcome.checks_held);
-  for (const char* name : {"report.html", "report.pdf", "summary.json", "run.json"}) {
-    CAPTURE(name);
-    CHECK(std::filesystem::file_size(folder / name) > 0);
+  return options;
+}
+
+/// One report with everything in it, made once; kept in DEM_KEEP_REPORT when that is set.
+struct Whole {
+  test::Scratch scratch;
+  std::filesystem::path folder;
+  reports::ReportOutcome outcome;
+
+  Whole() {
+    const char* kept = std::getenv("DEM_KEEP_REPORT");
+    folder = kept ? std::filesystem::path(kept) : scratch / "out";
+    const synthetic::Study study(scratch.path());
+    outcome = reports::make_report(study.result(), options_for(folder), canvas, {{"threads", 2.0}});
   }
+};
+
+const Whole& whole() {
+  static const Whole made;
+  return made;
+}
+
+std::string file(const std::string& name) { return dem::read_file(whole().folder / name); }
+
+}  // namespace
+
+TEST_CASE("every figure is drawn and every file named in the summary is there") {
+  CHECK(whole().outcome.checks_held);
+  const auto summary = nlohmann::json::parse(file("summary.json"));
+  std::set<std::string> drawn;
+  for (const auto& figure : summary.at("figures")) {
+    CAPTURE(figure.at("id").get<std::string>());
+    CHECK_FALSE(figure.at("files").empty());
+    drawn.insert(figure.at("id").get<std::string>());
+    for (const auto& name : figure.at("files")) {
+      CAPTURE(name.get<std::string>());
+      const std::string bytes = file(name.get<std::string>());
+      if (name.get<std::string>().ends_with(".csv")) {  // a head and at least one row
+        CHECK(std::ranges::count(bytes, '\n') >= 2);
+        CHECK(bytes.find(',') < bytes.find('\n'));
+      } else {
+        CHECK(bytes.size() > 1000);
+      }
+    }
+  }
+  for (const reports::Figure& figure : reports::figures()) {
+    const bool here = std::ranges::find(figure.scenarios, "ldb_aspect_ratio") != figure.scenarios.end();
+    CAPTURE(figure.id);
+    CHECK(drawn.contains(std::string(figure.id)) == here);
+  }
+  CHECK(file("report.html").find("could not be drawn") == std::string::npos);
+  CHECK(nlohmann::json::parse(file("run.json")).at("threads") == 2);
+}
+
+TEST_CASE("the page is valid HTML") {
+  const Ran tidy = run("tidy -quiet -errors -utf8 --show-info no '" + (whole().folder / "report.html").string() + "'");
+  CHECK(tidy.output == "");
+  CHECK(tidy.status == 0);
+}
+
+TEST_CASE("the page loads nothing from outside and needs no script") {
+  const std::string html = file("report.html");
+  CHECK(html.find("<script") == std::string::npos);
+  CHECK(html.find("<link") == std::string::npos);
+  CHECK(html.find("@import") == std::string::npos);
+  for (std::size_t at = html.find(" src=\""); at != std::string::npos; at = html.find(" src=\"", at + 1)) {
+    CHECK(html.compare(at, 11, " src=\"data:") == 0);
+  }
+  for (std::size_t at = html.find("url("); at != std::string::npos; at = html.find("url(", at + 1)) {
+    CHECK(html.compare(at, 9, "url(data:") == 0);
+  }
+  CHECK(html.find("<meta charset=\"utf-8\">") < 200);
+  CHECK(html.find("<html lang=\"en\">") != std::string::npos);
+}
+
+TEST_CASE("links within the page and to its files lead somewhere; every picture has a text") {
+  const std::string html = file("report.html");
+  std::size_t inner = 0, outer = 0, pictures = 0;
+  for (std::size_t at = html.find(" href=\""); at != std::string::npos; at = html.find(" href=\"", at + 1)) {
+    const std::string target = html.substr(at + 7, html.find('"', at + 7) - at - 7);
+    CAPTURE(target);
+    if (target.starts_with('#')) {
+      ++inner;
+      CHECK(html.find("id=\"" + target.substr(1) + "\"") != std::string::npos);
+    } else if (!target.starts_with("https://doi.org/")) {
+      ++outer;
+      CHECK(std::filesystem::exists(whole().folder / target));
+    }
+  }
+  for (std::size_t at = html.find("<img "); at != std::string::npos; at = html.find("<img ", at + 1)) {
+    ++pictures;
+    const std::size_t alt = html.find(" alt=\"", at);
+    REQUIRE(alt < html.find('>', at));
+    CHECK(html[alt + 6] != '"');
+  }
+  CHECK(inner > 20);
+  CHECK(outer > 40);
+  CHECK(pictures > 30);
+}
+
+TEST_CASE("the page names figures, sources, verdicts and residuals") {
+  const std::string html = file("report.html");
+  for (const char* text : {"Mirrors Zhao et al. 2021, Fig. 14", "Mirrors Zhao et al. 2021, Fig. 15a", "Tensile strength, AR 1",
+                           "<span>met</span>", "Energy ledger", "Packing pressure", "10.1016/j.ijrmms.2021.104971",
+                           "--scale draft", "[scales.draft]", "A made-up study"}) {
+    CAPTURE(text);
+    CHECK(html.find(text) != std::string::npos);
+  }
+}
+
+TEST_CASE("the PDF has text, embedded fonts, tags and a sane number of pages") {
+  const std::string pdf = (whole().folder / "report.pdf").string();
+  const Ran text = run("pdftotext '" + pdf + "' -");
+  for (const char* words : {"Published numbers beside ours", "Figure 1.", "Uniaxial compressive strength", "Energy ledger", "What to cite"}) {
+    CAPTURE(words);
+    CHECK(text.output.find(words) != std::string::npos);
+  }
+  const Ran fonts = run("pdffonts '" + pdf + "' | tail -n +3 | awk '{print $(NF-4)}' | sort -u");
+  CHECK(fonts.output == "yes\n");
+  const Ran info = run("pdfinfo '" + pdf + "'");
+  CHECK(std::regex_search(info.output, std::regex("Tagged: +yes")));
+  CHECK(std::regex_search(info.output, std::regex("Page size: .*A4")));
+  std::smatch pages;
+  REQUIRE(std::regex_search(info.output, pages, std::regex("Pages: +([0-9]+)")));
+  CHECK(std::stoi(pages[1]) >= 10);
+  CHECK(std::stoi(pages[1]) <= 30);
+  CHECK(text.output.find(whole().folder.string()) == std::string::npos);
+}
+
+TEST_CASE("a failed case is shown in its figures' place and the rest of the report is made") {
+  const test::Scratch scratch;
+  synthetic::Study study(scratch.path(), {.diameter = 4e-3, .height = 8e-3, .samples = 40});
+  study.fail("compression_ar_2", "the specimen cannot be packed: no rest after 1 000 rounds");
+  study.record("compression_ar_3").checks[0].held = false;
+  auto options = options_for(scratch / "out");
+  options.pdf = false;
+  const auto outcome = reports::make_report(study.result(), options, canvas, {});
+  CHECK_FALSE(outcome.checks_held);
+  CHECK_FALSE(std::filesystem::exists(scratch / "out/report.pdf"));
+  const std::string html = dem::read_file(scratch / "out/report.html");
+  const std::size_t plate = html.find("id=\"crack_maps\"");
+  REQUIRE(plate != std::string::npos);
+  CHECK(html.find("no rest after 1 000 rounds", plate) < html.find("id=\"crack_counts\""));
+  CHECK(html.find("<span>broken</span>") != std::string::npos);
+  CHECK(html.find("not computed") != std::string::npos);
+  CHECK(std::filesystem::exists(scratch / "out/figures/crack_maps_discs_ar_3.png"));
+}
+
+TEST_CASE("records without their tables give notes, not crashes; --only draws one figure") {
+  const test::Scratch scratch;
+  synthetic::Study study(scratch.path(), {.diameter = 3e-3, .height = 6e-3, .samples = 10});
+  for (const char* id : {"compression_ar_1", "compression_ar_2", "compression_ar_3"}) study.record(id).tables.clear();
+  auto options = options_for(scratch / "out");
+  options.pdf = false;
+  CHECK_NOTHROW(reports::make_report(study.result(), options, canvas, {}));
+  CHECK(dem::read_file(scratch / "out/report.html").find("could not be drawn") != std::string::npos);
+
+  options.folder = scratch / "one";
+  options.only = "energy_tension";
+  reports::make_report(study.result(), options, canvas, {});
+  const auto summary = nlohmann::json::parse(dem::read_file(scratch / "one/summary.json"));
+  REQUIRE(summary.at("figures").size() == 1);
+  CHECK(summary["figures"][0].at("id") == "energy_tension");
+  options.only = "no_such_figure";
+  CHECK_THROWS_WITH_AS(reports::make_report(study.result(), options, canvas, {}), doctest::Contains("crack_maps"), dem::InputError);
+}
+
+TEST_CASE("an error in WeasyPrint's log fails the run and leaves no PDF") {
+  const test::Scratch scratch;
+  const std::string html = "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>x</title></head><body>"
+                           "<img alt=\"gone\" src=\"gone.png\"></body></html>";
+  CHECK_THROWS_WITH_AS(reports::print_pdf(html, assets / "print.css", scratch / "x.pdf"), doctest::Contains("ERROR"), dem::EnvironmentError);
+  CHECK_FALSE(std::filesystem::exists(scratch / "x.pdf"));
+}
+
+TEST_CASE("the list of figures names every one of them") {
+  const std::string text = reports::list_figures();
+  for (const reports::Figure& figure : reports::figures()) CHECK(text.find(figure.id) != std::string::npos);
 }

@@ -1,0 +1,32 @@
+#pragma once
+// Independent pieces of work in processes forked from this one: an off-screen GL context serves one thread, so pictures are
+// drawn side by side in processes. They share the parent's memory as it was; what a piece found comes back in shared memory.
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <type_traits>
+#include <vector>
+
+namespace reports {
+
+/// `work(piece, result)` for every piece in [0, count), `size` bytes of result each, in up to `workers` processes that take
+/// the next piece when they are free. Results stand in the order of the pieces, whoever did them.
+/// Throws dem::EnvironmentError for the first one that a piece threw, std::runtime_error for the first other error, and
+/// dem::EnvironmentError when a process is ended by a signal or none can be made. All processes have ended by then.
+std::vector<std::byte> in_processes(std::size_t count, std::size_t size, int workers,
+                                    const std::function<void(std::size_t piece, std::byte* result)>& work);
+
+/// The same with results of a type that is its bytes.
+template <class Result, class Work>
+std::vector<Result> in_processes(std::size_t count, int workers, const Work& work) {
+  static_assert(std::is_trivially_copyable_v<Result>);
+  const auto bytes = in_processes(count, sizeof(Result), workers, [&](std::size_t piece, std::byte* to) {
+    const Result result = work(piece);
+    std::copy_n(reinterpret_cast<const std::byte*>(&result), sizeof(Result), to);
+  });
+  std::vector<Result> results(count);
+  std::copy(bytes.begin(), bytes.end(), reinterpret_cast<std::byte*>(results.data()));
+  return results;
+}
+
+}  // namespace reports

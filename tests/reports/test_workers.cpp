@@ -1,0 +1,88 @@
+// Drawing in several processes: order, errors, and the same bytes as in one. Its own program: nothing may have been drawn
+// before the first fork.
+#include <doctest/doctest.h>
+
+#include <csignal>
+#include <map>
+#include <stdexcept>
+
+#include "engine/core/errors.h"
+#include "engine/core/files.h"
+#include "reports/report.h"
+#include "reports/workers.h"
+#include "tests/reports/synthetic.h"
+#include "tests/support/scratch.h"
+
+namespace {
+
+std::map<std::string, std::string> files_in(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file() && entry.path().filename() != "run.json") {
+      files[entry.path().lexically_relative(folder).string()] = dem::read_file(entry.path());
+    }
+  }
+  return files;
+}
+
+reports::ReportOutcome report(const synthetic::Study& study, const std::filesystem::path& folder, const char* figure, int workers) {
+  reports::ReportOptions options;
+  options.folder = folder;
+  options.assets = std::filesystem::path(DEM_SOURCE_DIR) / "assets";
+  options.engine_version = "0.1.0";
+  options.pdf = false;
+  options.only = figure;
+  options.workers = workers;
+  const auto canvas = []() -> render::Canvas& {
+    static render::Canvas one;
+    return one;
+  };
+  return reports::make_report(study.result(), options, canvas, {});
+}
+
+}  // namespace
+
+TEST_CASE("results stand in the order of the pieces, whoever did them") {
+  for (const int workers : {1, 2, 5}) {
+    const auto squares = reports::in_processes<double>(37, workers, [](std::size_t i) { return static_cast<double>(i * i); });
+    REQUIRE(squares.size() == 37);
+    for (std::size_t i = 0; i < squares.size(); ++i) CHECK(squares[i] == static_cast<double>(i * i));
+  }
+  CHECK(reports::in_processes<int>(0, 2, [](std::size_t) { return 1; }).empty());
+}
+
+TEST_CASE("what a process throws, or a signal that ends it, reaches the caller") {
+  const auto run = [](const auto& fail) {
+    reports::in_processes<int>(8, 2, [&](std::size_t i) {
+      if (i == 3) fail();
+      return 0;
+    });
+  };
+  CHECK_THROWS_WITH_AS(run([] { throw dem::EnvironmentError("no font"); }), "no font", dem::EnvironmentError);
+  CHECK_THROWS_WITH_AS(run([] { throw std::invalid_argument("columns differ"); }), "columns differ", std::runtime_error);
+  CHECK_THROWS_WITH_AS(run([] { std::raise(SIGKILL); }), doctest::Contains("ended by signal"), dem::EnvironmentError);
+}
+
+TEST_CASE("pictures drawn in two processes have the same bytes as in one") {
+  const test::Scratch scratch;
+  const synthetic::Study study(scratch.path(), {.diameter = 3e-3, .height = 6e-3, .samples = 20});
+  for (const char* figure : {"grain_cluster", "stress_strain"}) report(study, scratch / "two" / figure, figure, 2);
+  REQUIRE_FALSE(render::Canvas::any_made());
+  for (const char* figure : {"grain_cluster", "stress_strain"}) report(study, scratch / "one" / figure, figure, 1);
+  const auto two = files_in(scratch / "two");
+  const auto one = files_in(scratch / "one");
+  CHECK(two.size() > 10);
+  REQUIRE(two.size() == one.size());
+  for (const auto& [name, bytes] : one) {
+    CAPTURE(name);
+    CHECK(two.at(name) == bytes);
+  }
+}
+
+TEST_CASE("once this process has drawn, all is drawn in it") {
+  const test::Scratch scratch;
+  const synthetic::Study study(scratch.path(), {.diameter = 3e-3, .height = 6e-3, .samples = 20});
+  report(study, scratch / "first", "grain_cluster", 1);
+  REQUIRE(render::Canvas::any_made());
+  CHECK_NOTHROW(report(study, scratch / "out", "grain_cluster", 2));
+}
