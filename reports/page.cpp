@@ -61,7 +61,14 @@ std::string page(const StudyResult& study, const Comparisons& comparisons, const
   data.set("choices", list_of(asset(options.assets / "choices" / model_file)));
   data.set("citations", list_of(asset(options.assets / "citations" / model_file)));
   data.set("command", command(study, options));
-  if (std::filesystem::exists(scenario.file())) data.set("scenario_text", dem::read_file(scenario.file()));
+  if (std::filesystem::exists(scenario.file())) {
+    std::string text = dem::read_file(scenario.file());
+    if (!scenario.included().empty() && std::filesystem::exists(scenario.included())) {
+      const std::string name = std::filesystem::path(scenario.included()).filename().string();
+      text += "\n# Included: " + name + "\n" + dem::read_file(scenario.included());
+    }
+    data.set("scenario_text", text);
+  }
   return pattern.render(data);
 }
 

@@ -84,6 +84,10 @@ std::vector<Variant> variants_of(const Scenario& s) {
     }
     variants.push_back(v);
   };
+  for (const char* sweep : {"sweep.aspect_ratio", "sweep.dip", "sweep.confining_pressure", "sweep.mineral"}) {
+    const bool empty = std::string_view(sweep) == "sweep.mineral" ? s.texts(sweep).empty() : s.reals(sweep).empty();
+    if (s.given(sweep) && empty) throw s.error(sweep, "the list is empty", "give at least one value, or leave the key out");
+  }
   const auto repeats = s.integer("repeats");
   const auto add_repeats = [&](Variant v, const std::string& key) {
     for (std::int64_t k = 0; k < repeats; ++k) {
