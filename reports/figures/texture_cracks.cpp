@@ -142,8 +142,8 @@ FigureContent crack_counts(const StudyResult& study) {
   chart.left.title = "Number of cracks";
   chart.bars = bars;
   chart.legend = render::Chart::Legend::top_left;
-  chart.width = 640;
-  chart.height = 320;
+  chart.width = 720;  // room for the numbers above the bars
+  chart.height = 340;
   content.panels.push_back({.id = "", .caption = "Cracks at the end of loading, by class and aspect ratio.",
                             .alt = joined(said, "; ") + ".", .content = chart});
   std::vector<std::string> parts;
