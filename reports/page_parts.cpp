@@ -293,6 +293,18 @@ std::optional<PageData> ledger_table(const StudyResult& study, const std::vector
 
 }  // namespace
 
+/// Whether the cases differ in a parameter: what all have alike is in the scenario.
+bool varies(const StudyResult& study, const std::string& name) {
+  std::set<std::string> values;
+  for (const CaseResult& result : study.cases) {
+    if (!result.record) continue;
+    for (const auto& [other, value] : result.record->parameters) {
+      if (other == name) values.insert(parameter_text(value));
+    }
+  }
+  return values.size() > 1;
+}
+
 std::string case_label(const StudyResult& study, const CaseResult& result) {
   if (!result.record) return words(result.id);
   std::vector<std::string> parts;
@@ -343,7 +355,7 @@ PageData cases_data(const StudyResult& study) {
       const dem::Record& record = *result.record;
       std::vector<std::string> parameters;
       for (const auto& [name, value] : record.parameters) {
-        if (name != "test") parameters.push_back(parameter_name(name) + " " + parameter_text(value));
+        if (name != "test" && varies(study, name)) parameters.push_back(parameter_name(name) + " " + parameter_text(value));
       }
       row.set("test", test_of(record));
       row.set("parameters", joined(parameters, ", "));
