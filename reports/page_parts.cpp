@@ -32,9 +32,14 @@ PageData table_row(const std::string& name, const std::vector<std::string>& valu
   return row;
 }
 
-std::string parameter_name(const std::string& name) {
-  if (name == "aspect_ratio") return "AR";
-  return words(name);
+// "AR 2", "dip 45°", "σ₃ 10 MPa", "quartz"; "" where there is nothing to say.
+std::string parameter_words(const std::string& name, const std::variant<double, std::string>& value) {
+  const std::string text = parameter_text(value);
+  if (text.empty() || name == "mineral") return text;
+  if (name == "aspect_ratio") return "AR " + text;
+  if (name == "dip") return "dip " + text + "°";
+  if (name == "confining_pressure_MPa") return "σ₃ " + text + " MPa";
+  return words(name) + " " + text;
 }
 
 std::string test_of(const dem::Record& record) {
@@ -314,7 +319,8 @@ std::string case_label(const StudyResult& study, const CaseResult& result) {
     const auto base = std::ranges::find(first->record->parameters, name, [](const auto& p) { return p.first; });
     const bool usual = base != first->record->parameters.end() && base->second == value;
     if (name == "aspect_ratio" || !usual) {
-      parts.push_back(parameter_name(name) + " " + parameter_text(value));
+      const std::string part = parameter_words(name, value);
+      if (!part.empty()) parts.push_back(part);
     }
   }
   return parts.empty() ? capital(words(result.id)) : joined(parts, ", ");
@@ -355,7 +361,8 @@ PageData cases_data(const StudyResult& study) {
       const dem::Record& record = *result.record;
       std::vector<std::string> parameters;
       for (const auto& [name, value] : record.parameters) {
-        if (name != "test" && varies(study, name)) parameters.push_back(parameter_name(name) + " " + parameter_text(value));
+        const std::string part = name == "test" || !varies(study, name) ? "" : parameter_words(name, value);
+        if (!part.empty()) parameters.push_back(part);
       }
       row.set("test", test_of(record));
       row.set("parameters", joined(parameters, ", "));

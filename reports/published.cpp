@@ -1,11 +1,16 @@
 #include "reports/published.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
+#include "reports/envelopes.h"
+#include "reports/figures/parts.h"
 #include "reports/text.h"
 
 namespace reports {
@@ -21,11 +26,46 @@ struct NotComputed {
 // Counts as counts, measurements with four digits.
 std::string short_number(double value) { return std::floor(value) == value ? count(value) : number(value, 4); }
 
-std::string case_id(const Json& term, const std::string& step) {
+// A step of a trend, and which repeat of its case ("" or "_seed_2").
+struct Place {
+  std::string step, repeat;
+};
+
+// A case without confining pressure has none in its id.
+std::string case_id(const Json& term, const Place& at) {
+  constexpr std::string_view pressure = "_sigma3_{}";
   std::string id = term.at("case").get<std::string>();
+  const std::size_t confined = id.find(pressure);
   const std::size_t place = id.find("{}");
-  if (place != std::string::npos) id.replace(place, 2, step);
-  return id;
+  if (confined != std::string::npos && at.step == "0") id.erase(confined, pressure.size());
+  else if (place != std::string::npos) id.replace(place, 2, at.step);
+  return id + at.repeat;
+}
+
+bool has_case(const StudyResult& study, const std::string& id) {
+  return std::ranges::find(study.cases, id, &CaseResult::id) != study.cases.end();
+}
+
+// Whether the scenario has every case that a term needs at a step.
+bool asked_for(const StudyResult& study, const Json& term, const Place& at) {
+  if (term.contains("case")) return has_case(study, case_id(term, at));
+  for (const char* parts : {"quotient", "difference", "sum"}) {
+    if (!term.contains(parts)) continue;
+    return std::ranges::all_of(term.at(parts), [&](const Json& part) { return asked_for(study, part, at); });
+  }
+  return true;
+}
+
+// The endings of the repeats in a study: "" and, for others than the first seed, "_seed_2".
+std::vector<std::string> repeats_of(const StudyResult& study) {
+  std::vector<std::string> found{""};
+  for (const CaseResult& one : study.cases) {
+    const std::size_t place = one.id.rfind("_seed_");
+    if (place == std::string::npos || one.id.find_first_not_of("0123456789", place + 6) != std::string::npos) continue;
+    const std::string ending = one.id.substr(place);
+    if (std::ranges::find(found, ending) == found.end()) found.push_back(ending);
+  }
+  return found;
 }
 
 const dem::Record& record_of(const StudyResult& study, const std::string& id) {
@@ -35,27 +75,37 @@ const dem::Record& record_of(const StudyResult& study, const std::string& id) {
   return *found->record;
 }
 
-double value_of(const StudyResult& study, const Json& term, const std::string& step);
+Estimate fitted(const StudyResult& study, const Json& term) {
+  const std::string name = term.at("fit").get<std::string>();
+  const std::string mineral = term.value("mineral", "");
+  const auto found = envelopes_of(study, mineral).find(name);
+  if (!found) throw NotComputed{"too few pressures to fit " + (mineral.empty() ? "" : mineral + ", ") + name};
+  return *found;
+}
 
-std::vector<double> values_of(const StudyResult& study, const Json& terms, const std::string& step) {
+double value_of(const StudyResult& study, const Json& term, const Place& at);
+
+std::vector<double> values_of(const StudyResult& study, const Json& terms, const Place& at) {
   std::vector<double> values;
-  for (const Json& term : terms) values.push_back(value_of(study, term, step));
+  for (const Json& term : terms) values.push_back(value_of(study, term, at));
   return values;
 }
 
-double value_of(const StudyResult& study, const Json& term, const std::string& step) {
+double value_of(const StudyResult& study, const Json& term, const Place& at) {
   double value = 0;
   if (term.contains("quotient")) {
-    const auto parts = values_of(study, term.at("quotient"), step);
+    const auto parts = values_of(study, term.at("quotient"), at);
     if (parts.at(1) == 0) throw NotComputed{"division by zero"};
     value = parts.at(0) / parts.at(1);
   } else if (term.contains("difference")) {
-    const auto parts = values_of(study, term.at("difference"), step);
+    const auto parts = values_of(study, term.at("difference"), at);
     value = parts.at(0) - parts.at(1);
   } else if (term.contains("sum")) {
-    for (const double part : values_of(study, term.at("sum"), step)) value += part;
+    for (const double part : values_of(study, term.at("sum"), at)) value += part;
+  } else if (term.contains("fit")) {
+    value = fitted(study, term).value;
   } else {
-    const std::string id = case_id(term, step);
+    const std::string id = case_id(term, at);
     const dem::Record& record = record_of(study, id);
     const std::string result = term.at("result").get<std::string>();
     if (!record.has_result(result)) throw NotComputed{"case " + id + " has no " + words(result)};
@@ -65,8 +115,45 @@ double value_of(const StudyResult& study, const Json& term, const std::string& s
   return value * term.value("times", 1.0);
 }
 
+// The value in every repeat that has one, the first seed's first.
+std::vector<double> with_repeats(const StudyResult& study, const Json& term, const std::string& step) {
+  std::vector<double> values;
+  for (const std::string& repeat : repeats_of(study)) {
+    const Place at{step, repeat};
+    if (!repeat.empty() && !asked_for(study, term, at)) continue;
+    try {
+      values.push_back(value_of(study, term, at));
+    } catch (const NotComputed&) {
+      if (repeat.empty()) throw;
+    }
+  }
+  return values;
+}
+
+double mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
 void compare_value(const StudyResult& study, const Json& entry, Comparison& row) {
-  const double ours = value_of(study, entry.at("of"), {});
+  const Json& term = entry.at("of");
+  double ours = 0;
+  if (term.contains("fit")) {
+    const Estimate estimate = fitted(study, term);
+    ours = estimate.value * term.value("times", 1.0);
+    row.detail = estimate.has_interval() ? fmt::format("95 % interval {} to {}", number(estimate.low), number(estimate.high))
+                                         : "as many points as unknowns: no interval";
+  } else {
+    const auto values = with_repeats(study, term, {});
+    ours = mean(values);
+    if (values.size() > 1) {
+      double squares = 0;
+      for (const double value : values) squares += (value - ours) * (value - ours);
+      row.detail = fmt::format("mean of {} seeds, standard deviation {}", values.size(),
+                               number(std::sqrt(squares / static_cast<double>(values.size() - 1)), 2));
+    }
+  }
   row.computed = ours;
   const auto* range = std::get_if<std::pair<double, double>>(&row.published);
   const double near = range ? std::clamp(ours, range->first, range->second) : std::get<double>(row.published);
@@ -74,19 +161,41 @@ void compare_value(const StudyResult& study, const Json& entry, Comparison& row)
   row.verdict = std::abs(*row.deviation) <= *row.tolerance ? Verdict::met : Verdict::missed;
 }
 
-// The sign of the least-squares slope over equally spaced steps; detail lists the values.
+// The sign of the least-squares slope; detail lists the values, means of repeats, and tells how sure the slope is. Steps that
+// the scenario has no case for are left out, as long as two are left.
 void compare_trend(const StudyResult& study, const Json& entry, Comparison& row) {
-  std::vector<double> ours;
-  for (const Json& step : entry.at("over")) ours.push_back(value_of(study, entry.at("of"), step.get<std::string>()));
-  if (ours.size() < 2) throw NotComputed{"a trend needs two cases"};
-  const double middle = 0.5 * static_cast<double>(ours.size() - 1);
-  double slope = 0;
-  for (std::size_t i = 0; i < ours.size(); ++i) slope += (static_cast<double>(i) - middle) * ours[i];
+  std::vector<double> ours, x, y;
+  std::vector<std::string> absent;
+  const Json& steps = entry.at("over");
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const std::string step = steps[k].get<std::string>();
+    if (!asked_for(study, entry.at("of"), {step, {}})) {
+      absent.push_back(step);
+      continue;
+    }
+    const auto values = with_repeats(study, entry.at("of"), step);
+    ours.push_back(mean(values));
+    for (const double value : values) {
+      x.push_back(std::stod(step));
+      y.push_back(value);
+    }
+  }
+  if (ours.size() < 2) {
+    throw NotComputed{absent.empty() ? "a trend needs two cases" : "no cases at " + listed(absent) + " in this scenario"};
+  }
+  const auto line = fit_line(x, y);
+  if (!line) throw NotComputed{"a trend needs two different steps"};
+  const double slope = line->slope.value;
   row.computed = std::string(slope > 0 ? "rises" : slope < 0 ? "falls" : "stays level");
   const bool steady = std::ranges::is_sorted(ours) || std::ranges::is_sorted(ours, std::greater{});
   std::vector<std::string> shown;
   for (const double value : ours) shown.push_back(short_number(value));
   row.detail = joined(shown, " → ") + (steady ? "" : ", not at every step");
+  if (!absent.empty()) row.detail += "; not run: " + joined(absent, ", ");
+  if (line->slope.has_interval()) {
+    row.detail += fmt::format("; slope {} (95 % interval {} to {}, p = {})", number(slope, 2), number(line->slope.low, 2),
+                              number(line->slope.high, 2), number(line->p_value, 2));
+  }
   row.verdict = *row.computed == row.published ? Verdict::met : Verdict::missed;
 }
 
@@ -124,7 +233,7 @@ Comparison described(const Json& entry) {
 
 bool optional_and_absent(const StudyResult& study, const Json& entry) {
   return entry.value("optional", false) && entry.at("of").contains("case") &&
-         std::ranges::find(study.cases, case_id(entry.at("of"), {}), &CaseResult::id) == study.cases.end();
+         !has_case(study, case_id(entry.at("of"), {}));
 }
 
 void compare_entry(const StudyResult& study, const Json& entry, std::vector<Comparison>& rows) {

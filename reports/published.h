@@ -3,11 +3,13 @@
 //   {"model": "grain_texture", "paper": "Zhao et al. 2021", "scale": "paper",
 //    "numbers": [{"id", "scenarios": ["ldb_aspect_ratio"], "source": "Section 4.1", "quantity", "unit", "statement", "kind", ...}]}
 // kind "value":   "published": 206.8 or [55, 60] (a range), "tolerance": {"relative": 0.1} or {"absolute": 0.03}, "of": TERM
-//      "trend":   "published": "rises" | "falls", "over": ["1", "2", "3"], "of": TERM; {} in case ids stands for these;
+//      "trend":   "published": "rises" | "falls", "over": ["1", "2", "3"], "of": TERM; {} in case ids stands for these
+//                 numbers ("_sigma3_{}" is left out at 0); steps that the scenario has no cases for are left out;
 //                 "published_values": [...] are shown beside ours
 //      "greater": "of": TERM, "than": TERM: ours must be greater, as published
 // TERM: {"case": "compression_ar_1", "result": "ucs_MPa"}, {"quotient": [TERM, TERM]}, {"sum": [TERM, ...]},
-//       {"difference": [TERM, TERM]}; "times": 100 scales any of them (a fraction to percent).
+//       {"difference": [TERM, TERM]}, {"fit": "peak.m", "mineral": "quartz"} (reports/envelopes.h); "times": 100 scales any of them (a fraction to percent).
+// Where a scenario repeats its cases with other seeds, values are means, and trends are judged over all seeds.
 // "optional": true leaves the number out where the scenario has not the case.
 #include <filesystem>
 #include <optional>

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "reports/text.h"
 
@@ -16,10 +17,10 @@ bool has_parameter(const dem::Record& record, std::string_view name) {
   return std::ranges::any_of(record.parameters, [&](const auto& p) { return p.first == name; });
 }
 
-// Equal in all parameters but one.
-bool alike(const dem::Record& a, const dem::Record& b, std::string_view but) {
+// Equal in all parameters but those named.
+bool alike(const dem::Record& a, const dem::Record& b, std::initializer_list<std::string_view> but) {
   return std::ranges::all_of(a.parameters, [&](const auto& mine) {
-    return mine.first == but || std::ranges::find(b.parameters, mine) != b.parameters.end();
+    return std::ranges::find(but, mine.first) != but.end() || std::ranges::find(b.parameters, mine) != b.parameters.end();
   });
 }
 
@@ -32,17 +33,20 @@ std::string id_part(double value) {
 
 }  // namespace
 
-std::vector<SeriesCase> series_of(const StudyResult& study, std::string_view test, std::string_view parameter,
-                                  std::string_view short_name) {
+std::vector<SeriesCase> series_of(const StudyResult& study, std::string_view test, const Axis& axis) {
   std::vector<SeriesCase> cases;
-  for (const CaseResult& result : study.cases) {
-    if (!result.record || !has_parameter(*result.record, "test") || !has_parameter(*result.record, parameter)) continue;
-    if (result.record->text("test") != test) continue;
-    if (!cases.empty() && !alike(*cases.front().record, *result.record, parameter)) continue;
-    const double value = result.record->number(parameter);
-    std::string id(short_name);
-    std::ranges::transform(id, id.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    cases.push_back({result.record, value, fmt::format("{} {:.6g}", short_name, value), id + "_" + id_part(value), {}, {}});
+  for (const CaseResult& one : study.cases) {
+    if (!one.record || !has_parameter(*one.record, "test") || !has_parameter(*one.record, axis.parameter)) continue;
+    if (one.record->text("test") != test) continue;
+    if (!cases.empty() && !alike(*cases.front().record, *one.record, {axis.parameter, "seed"})) continue;
+    const double value = one.record->number(axis.parameter);
+    const auto same = std::ranges::find(cases, value, &SeriesCase::value);
+    if (same != cases.end()) {
+      same->repeats.push_back(one.record);
+      continue;
+    }
+    cases.push_back({one.record, value, fmt::format("{} {:.6g}{}", axis.name, value, axis.unit),
+                     fmt::format("{}_{}", axis.id, id_part(value)), {}, {}, {one.record}});
   }
   std::ranges::stable_sort(cases, {}, &SeriesCase::value);
   constexpr std::array lines{render::Line::solid, render::Line::dash, render::Line::dash_dot, render::Line::dot};
@@ -51,6 +55,75 @@ std::vector<SeriesCase> series_of(const StudyResult& study, std::string_view tes
     cases[i].line = lines[i % lines.size()];
   }
   return cases;
+}
+
+Measure result(std::string name, double factor) {
+  return [name = std::move(name), factor](const dem::Record& record) { return factor * result_or_nan(record, name); };
+}
+
+Spread spread_of(const SeriesCase& item, const Measure& value) {
+  std::vector<double> values;
+  for (const dem::Record* record : item.repeats) {
+    const double v = value(*record);
+    if (std::isfinite(v)) values.push_back(v);
+  }
+  const auto n = static_cast<double>(values.size());
+  Spread spread{.mean = std::numeric_limits<double>::quiet_NaN(), .count = values.size()};
+  if (values.empty()) return spread;
+  spread.mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  double squares = 0;
+  for (const double v : values) squares += (v - spread.mean) * (v - spread.mean);
+  if (values.size() > 1) spread.deviation = std::sqrt(squares / (n - 1));
+  return spread;
+}
+
+render::Series means(const std::vector<SeriesCase>& cases, const Measure& value) {
+  render::Series series;
+  series.marker = render::Marker::circle;
+  bool repeated = false;
+  for (const SeriesCase& item : cases) {
+    const Spread spread = spread_of(item, value);
+    if (spread.count == 0) continue;
+    repeated = repeated || spread.count > 1;
+    series.x.push_back(item.value);
+    series.y.push_back(spread.mean);
+    series.y_error.push_back(spread.deviation);
+  }
+  if (!repeated) series.y_error.clear();
+  return series;
+}
+
+std::optional<LineFit> trend_of(const std::vector<SeriesCase>& cases, const Measure& value) {
+  std::vector<double> x, y;
+  for (const SeriesCase& item : cases) {
+    for (const dem::Record* record : item.repeats) {
+      const double v = value(*record);
+      if (!std::isfinite(v)) continue;
+      x.push_back(item.value);
+      y.push_back(v);
+    }
+  }
+  return fit_line(x, y);
+}
+
+std::string trend_words(const std::vector<SeriesCase>& cases, const Measure& value, std::string_view unit, const Axis& axis) {
+  const auto fit = trend_of(cases, value);
+  if (!fit) return {};
+  const double slope = fit->slope.value;
+  const std::string of = (unit.empty() ? "" : " " + std::string(unit)) + " per " + std::string(axis.step);
+  if (!fit->slope.has_interval()) {
+    return fmt::format("{} by {}{} between two points", slope < 0 ? "falls" : "rises", number(std::abs(slope), 2), of);
+  }
+  const std::string interval = fmt::format("95 % interval {} to {}, p = {}", number(fit->slope.low, 2), number(fit->slope.high, 2),
+                                           fit->p_value < 0.001 ? "0.001 or less" : number(fit->p_value, 2));
+  if (fit->p_value > 0.05) return fmt::format("has no trend that scatter does not hide: slope {}{} ({})", number(slope, 2), of, interval);
+  return fmt::format("{} by {}{} ({})", slope < 0 ? "falls" : "rises", number(std::abs(slope), 2), of, interval);
+}
+
+std::string estimate_text(const Estimate& estimate, int digits, bool in_table) {
+  const std::string value = number(estimate.value, digits);
+  if (!estimate.has_interval()) return in_table ? value : value + " (no interval from so few points)";
+  return fmt::format("{} ({}{} to {})", value, in_table ? "" : "95 % interval ", number(estimate.low, digits), number(estimate.high, digits));
 }
 
 std::optional<Panel> missing_cases(const StudyResult& study, std::string_view test) {
@@ -97,18 +170,18 @@ double result_or_nan(const dem::Record& record, std::string_view name) {
   return record.has_result(name) ? record.result(name) : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::string by_case(const std::vector<SeriesCase>& cases, const std::function<double(const dem::Record&)>& value,
+std::string by_case(const std::vector<SeriesCase>& cases, const Measure& value,
                     int digits, std::string_view unit) {
   std::vector<std::string> items;
   for (const SeriesCase& item : cases) {
-    const double v = value(*item.record);
-    if (std::isfinite(v)) items.push_back(digits > 0 ? number(v, digits) : count(v));
+    const double v = spread_of(item, value).mean;
+    if (std::isfinite(v)) items.push_back(digits > 0 ? number(v, digits) : count(std::round(v)));
   }
   if (items.size() != cases.size()) {  // some are missing: say which is which
     items.clear();
     for (const SeriesCase& item : cases) {
-      const double v = value(*item.record);
-      if (std::isfinite(v)) items.push_back((digits > 0 ? number(v, digits) : count(v)) + " (" + item.label + ")");
+      const double v = spread_of(item, value).mean;
+      if (std::isfinite(v)) items.push_back((digits > 0 ? number(v, digits) : count(std::round(v))) + " (" + item.label + ")");
     }
   }
   return items.empty() ? "not measured" : listed(items) + (unit.empty() ? "" : " " + std::string(unit));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reports/figure.h"
+#include "reports/fits.h"
 
 namespace reports {
 
@@ -18,12 +19,44 @@ struct SeriesCase {
   std::string id;          ///< suffix for panels: "ar_2"
   render::Colour colour;
   render::Line line = render::Line::solid;
+  std::vector<const dem::Record*> repeats;  ///< of every seed, this record's first
+};
+
+/// A parameter that cases differ in, and its words.
+struct Axis {
+  std::string_view parameter;  ///< "confining_pressure_MPa"
+  std::string_view name;       ///< in labels: "σ₃"
+  std::string_view unit;       ///< with its space: " MPa"
+  std::string_view id;         ///< in names of files: "sigma3"
+  std::string_view title;      ///< of a chart's axis
+  std::string_view words;      ///< "the confining pressure"
+  std::string_view step;       ///< "MPa of confining pressure"
 };
 
 /// The cases of one test along one parameter, by its value: those that agree with the test's first record in every other
-/// parameter. `short_name` makes the labels ("AR" gives "AR 2").
-std::vector<SeriesCase> series_of(const StudyResult& study, std::string_view test, std::string_view parameter,
-                                  std::string_view short_name);
+/// parameter. Those that differ from one of these in their seed alone are its repeats.
+std::vector<SeriesCase> series_of(const StudyResult& study, std::string_view test, const Axis& axis);
+
+using Measure = std::function<double(const dem::Record&)>;
+/// A result by name, NaN where a record has none.
+Measure result(std::string name, double factor = 1);
+
+/// Mean and standard deviation of a measure over the repeats of a case; NaN where none has it.
+struct Spread {
+  double mean = 0, deviation = 0;
+  std::size_t count = 0;
+};
+Spread spread_of(const SeriesCase& item, const Measure& value);
+
+/// Means of a measure along the swept parameter, with error bars of one standard deviation where there are repeats.
+render::Series means(const std::vector<SeriesCase>& cases, const Measure& value);
+
+/// The straight line through a measure of all cases and repeats against the swept parameter.
+std::optional<LineFit> trend_of(const std::vector<SeriesCase>& cases, const Measure& value);
+/// "rises by 1.2 MPa per degree of dip (95 % interval 0.4 to 2, p = 0.01)", or that scatter hides it; "" with one case.
+std::string trend_words(const std::vector<SeriesCase>& cases, const Measure& value, std::string_view unit, const Axis& axis);
+/// "29.1 (95 % interval 27 to 31.2)", shorter in tables: "29.1 (27 to 31.2)".
+std::string estimate_text(const Estimate& estimate, int digits, bool in_table = false);
 
 /// A table of the cases of a test that have no record, with the reason; nothing when all have one.
 /// Cases belong to a test when their id starts with its name.
@@ -45,8 +78,8 @@ Panel note_panel(std::string id, std::string caption, std::string text);
 /// Result of a record, or NaN.
 double result_or_nan(const dem::Record& record, std::string_view name);
 
-/// "206.8, 201.3 and 198.4 MPa", with the labels of the cases when some have no value. `digits` significant ones; 0: a count.
-std::string by_case(const std::vector<SeriesCase>& cases, const std::function<double(const dem::Record&)>& value,
+/// "206.8, 201.3 and 198.4 MPa", means of repeats, with the labels of the cases when some have no value. `digits` significant ones; 0: a count.
+std::string by_case(const std::vector<SeriesCase>& cases, const Measure& value,
                     int digits, std::string_view unit);
 
 }  // namespace reports

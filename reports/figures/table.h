@@ -14,6 +14,20 @@ FigureContent crack_counts(const StudyResult& study);
 FigureContent group_shares(const StudyResult& study);
 FigureContent energy_compression(const StudyResult& study);
 FigureContent energy_tension(const StudyResult& study);
+FigureContent initiation_readings(const StudyResult& study);
+FigureContent confinement_curves(const StudyResult& study);
+FigureContent confinement_envelopes(const StudyResult& study);
+FigureContent confinement_after_peak(const StudyResult& study);
+FigureContent confinement_crack_maps(const StudyResult& study);
+FigureContent confinement_crack_counts(const StudyResult& study);
+FigureContent crack_orientation(const StudyResult& study);
+FigureContent dip_clusters(const StudyResult& study);
+FigureContent dip_crack_maps(const StudyResult& study);
+FigureContent dip_crack_counts(const StudyResult& study);
+FigureContent dip_strengths(const StudyResult& study);
+FigureContent dip_group_shares(const StudyResult& study);
+FigureContent mineral_properties(const StudyResult& study);
+FigureContent mineral_envelopes(const StudyResult& study);
 
 }  // namespace reports::texture
 

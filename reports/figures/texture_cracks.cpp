@@ -1,4 +1,4 @@
-// Crack maps and counts against the aspect ratio (Zhao et al. 2021, Fig. 15) and stages of cracking (Fig. 9).
+// Crack maps and counts against the swept parameter (Zhao et al. 2021, Figs. 12, 15, 17) and stages of cracking (Fig. 9).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,8 +13,85 @@
 namespace reports::texture {
 namespace {
 
-double crack_result(const dem::Record& record, const CrackClass& one) {
-  return result_or_nan(record, "cracks." + std::string(one.id));
+Measure number_of(const CrackClass& one) { return result("cracks." + std::string(one.id)); }
+
+double all_of(const dem::Record& record) {
+  double total = 0;
+  for (const CrackClass& one : crack_classes()) total += number_of(one)(record);
+  return total;
+}
+
+Measure share_of(const CrackClass& one) {
+  return [&one](const dem::Record& record) {
+    const double total = all_of(record);
+    return total > 0 ? 100 * number_of(one)(record) / total : std::nan("");
+  };
+}
+
+// Bars grouped by class: a bar a case.
+render::Chart bars_by_class(const std::vector<SeriesCase>& cases) {
+  render::Bars bars;
+  bool repeated = false;
+  for (const CrackClass& one : crack_classes()) bars.categories.emplace_back(one.name);
+  bars.categories.emplace_back("all");
+  for (const SeriesCase& item : cases) {
+    bars.labels.push_back(item.label);
+    bars.colours.push_back(item.colour);
+    std::vector<double> values, errors;
+    for (std::size_t k = 0; k <= crack_classes().size(); ++k) {
+      const Spread spread = spread_of(item, k < crack_classes().size() ? number_of(crack_classes()[k]) : Measure(all_of));
+      values.push_back(std::isfinite(spread.mean) ? spread.mean : 0);
+      errors.push_back(spread.deviation);
+      repeated = repeated || spread.count > 1;
+    }
+    bars.values.push_back(values);
+    bars.errors.push_back(errors);
+  }
+  if (!repeated) bars.errors.clear();
+  bars.print_values = !repeated;
+  render::Chart chart;
+  chart.x.title = "Class of crack";
+  chart.left.title = "Number of cracks";
+  chart.bars = bars;
+  chart.legend = render::Chart::Legend::top_left;
+  chart.width = 720;  // room for the numbers above the bars
+  chart.height = 340;
+  return chart;
+}
+
+// Lines along the swept parameter: a line a class, and one for all cracks.
+render::Chart lines_by_class(const std::vector<SeriesCase>& cases, const Axis& axis, bool shares) {
+  constexpr std::array lines{render::Line::solid, render::Line::dash, render::Line::dash_dot, render::Line::dot};
+  constexpr std::array markers{render::Marker::circle, render::Marker::square, render::Marker::diamond, render::Marker::triangle};
+  render::Chart chart;
+  chart.x.title = axis.title;
+  chart.left.title = shares ? "Share of cracks (%)" : "Number of cracks";
+  chart.left.low = 0;
+  for (std::size_t k = 0; k < crack_classes().size(); ++k) {
+    const CrackClass& one = crack_classes()[k];
+    render::Series series = means(cases, shares ? share_of(one) : number_of(one));
+    series.label = one.name;
+    series.colour = one.colour;
+    series.line = lines[k];
+    series.marker = markers[k];
+    if (!series.x.empty()) chart.series.push_back(series);
+  }
+  if (!shares) {
+    render::Series total = means(cases, all_of);
+    total.label = "all";
+    total.colour = {0.45, 0.45, 0.45};
+    total.marker = render::Marker::cross;
+    if (!total.x.empty()) chart.series.push_back(total);
+  }
+  chart.legend = render::Chart::Legend::below;
+  chart.width = 440;
+  chart.height = 380;
+  return chart;
+}
+
+std::string with_its(const std::vector<SeriesCase>& cases) {
+  return std::ranges::any_of(cases, [](const SeriesCase& c) { return c.repeats.size() > 1; })
+             ? " Means of repeats; bars are one standard deviation." : "";
 }
 
 std::string crack_alt(const dem::Record& record, std::size_t count, const std::string& what) {
@@ -116,46 +193,58 @@ FigureContent crack_counts(const StudyResult& study) {
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
-  render::Bars bars;
-  bars.print_values = true;
-  std::vector<std::string> said;
-  for (const CrackClass& one : crack_classes()) bars.categories.emplace_back(one.name);
-  bars.categories.emplace_back("all");
-  for (const SeriesCase& item : cases) {
-    bars.labels.push_back(item.label);
-    bars.colours.push_back(item.colour);
-    std::vector<double> values;
-    double total = 0;
-    for (const CrackClass& one : crack_classes()) {
-      const double n = crack_result(*item.record, one);
-      values.push_back(std::isfinite(n) ? n : 0);
-      total += values.back();
-    }
-    values.push_back(total);
-    bars.values.push_back(values);
-    std::vector<std::string> parts;
-    for (std::size_t k = 0; k < values.size(); ++k) parts.push_back(count(values[k]) + " " + bars.categories[k]);
-    said.push_back(item.label + ": " + joined(parts, ", "));
-  }
-  render::Chart chart;
-  chart.x.title = "Class of crack";
-  chart.left.title = "Number of cracks";
-  chart.bars = bars;
-  chart.legend = render::Chart::Legend::top_left;
-  chart.width = 720;  // room for the numbers above the bars
-  chart.height = 340;
-  content.panels.push_back({.id = "", .caption = "Cracks at the end of loading, by class and aspect ratio.",
-                            .alt = joined(said, "; ") + ".", .content = chart});
+  const Axis& axis = swept_axis(study);
   std::vector<std::string> parts;
-  for (const CrackClass& one : crack_classes()) {
-    parts.push_back(std::string(one.name) + " " +
-                    by_case(cases, [&](const dem::Record& r) { return crack_result(r, one); }, 0, ""));
+  for (const CrackClass& one : crack_classes()) parts.push_back(std::string(one.name) + " " + by_case(cases, number_of(one), 0, ""));
+  parts.push_back("all " + by_case(cases, all_of, 0, ""));
+  std::vector<std::string> labels, shares;
+  for (const SeriesCase& item : cases) labels.push_back(item.label);
+  for (const CrackClass& one : crack_classes()) shares.push_back(std::string(one.name) + " " + by_case(cases, share_of(one), 3, "%"));
+  const std::string found = "Cracks at " + joined(labels, ", ") + ": " + joined(parts, "; ") + ".";
+  if (axis.parameter == "aspect_ratio") {
+    content.panels.push_back({.id = "", .caption = "Cracks at the end of loading, by class and aspect ratio." + with_its(cases),
+                              .alt = found, .content = bars_by_class(cases)});
+  } else {
+    content.panels.push_back({.id = "numbers", .caption = "Cracks at the end of loading, by class." + with_its(cases), .alt = found,
+                              .content = lines_by_class(cases, axis, false), .per_row = 2});
+    content.panels.push_back({.id = "shares", .caption = "Their shares of all cracks." + with_its(cases),
+                              .alt = joined(shares, "; ") + ".", .content = lines_by_class(cases, axis, true), .per_row = 2});
   }
-  content.finding = "Cracks at " + joined([&] {
-                      std::vector<std::string> labels;
-                      for (const SeriesCase& item : cases) labels.push_back(item.label);
-                      return labels;
-                    }(), ", ") + ": " + joined(parts, "; ") + ".";
+  content.finding = found;
+  if (cases.size() > 2 || !with_its(cases).empty()) {
+    std::vector<std::string> trends;
+    for (const CrackClass& one : crack_classes()) {
+      const std::string trend = trend_words(cases, number_of(one), "", axis);
+      if (!trend.empty()) trends.push_back(std::string(one.name) + " " + trend);
+    }
+    if (!trends.empty()) content.finding += " Along " + std::string(axis.words) + ": " + joined(trends, "; ") + ".";
+  }
+  return content;
+}
+
+FigureContent dip_crack_maps(const StudyResult& study) {
+  FigureContent content = crack_maps(study);
+  content.statement = "The dip of the long axes has little influence on the failure mode.";
+  return content;
+}
+
+FigureContent dip_crack_counts(const StudyResult& study) {
+  FigureContent content = crack_counts(study);
+  content.statement = "From dip 0° to 90° cracks within grains tend to get fewer, while tension cracks between grains keep rising.";
+  return content;
+}
+
+FigureContent confinement_crack_maps(const StudyResult& study) {
+  FigureContent content = crack_maps(study);
+  content.statement = "With confining pressure the number of cracks grows, shear cracks within grains most; failure turns from axial "
+                      "splitting to shear.";
+  return content;
+}
+
+FigureContent confinement_crack_counts(const StudyResult& study) {
+  FigureContent content = crack_counts(study);
+  content.statement = "The number of tension cracks stays about constant over the confining pressures; number and share of shear "
+                      "cracks rise. The fifth of the published categories is taken for the total.";
   return content;
 }
 

@@ -83,11 +83,35 @@ std::array<std::size_t, 4> numbers_in_section(const dem::Record& record, std::si
 
 }  // namespace
 
+const Axis confining_axis{"confining_pressure_MPa", "σ₃", " MPa", "sigma3", "Confining pressure σ₃ (MPa)", "the confining pressure",
+                          "MPa of confining pressure"};
+
+const Axis& swept_axis(const StudyResult& study) {
+  static const std::array<Axis, 3> axes{
+      Axis{"aspect_ratio", "AR", "", "ar", "Aspect ratio", "the aspect ratio", "unit of aspect ratio"},
+      Axis{"dip", "dip", "°", "dip", "Dip of the long axis (°)", "the dip", "degree of dip"}, confining_axis};
+  const Axis* most = axes.data();
+  std::size_t values = 0;
+  for (const Axis& axis : axes) {
+    const std::size_t n = std::max(series_of(study, test_compression, axis).size(), series_of(study, test_tension, axis).size());
+    if (n > values) most = &axis, values = n;
+  }
+  return *most;
+}
+
 std::vector<SeriesCase> swept(const StudyResult& study, std::string_view test) {
-  auto cases = series_of(study, test, "aspect_ratio", "AR");
-  if (cases.size() > 1) return cases;
-  const auto by_dip = series_of(study, test, "dip", "dip");
-  return by_dip.size() > cases.size() ? by_dip : cases;
+  return series_of(study, test, swept_axis(study));
+}
+
+StudyResult of_mineral(const StudyResult& study, std::string_view mineral) {
+  StudyResult chosen{study.scenario, {}};
+  for (const CaseResult& one : study.cases) {
+    if (!one.record) continue;
+    const auto named = std::ranges::find(one.record->parameters, "mineral", [](const auto& p) { return p.first; });
+    const auto* text = named == one.record->parameters.end() ? nullptr : std::get_if<std::string>(&named->second);
+    if ((text ? std::string_view(*text) : std::string_view()) == mineral) chosen.cases.push_back(one);
+  }
+  return chosen;
 }
 
 const std::array<CrackClass, 4>& crack_classes() {

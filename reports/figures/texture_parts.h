@@ -12,8 +12,13 @@ namespace reports::texture {
 inline constexpr std::string_view test_compression = "compression";
 inline constexpr std::string_view test_tension = "direct_tension";
 
-/// Cases of a test along the parameter that the scenario sweeps: the aspect ratio, or the dip when only that varies.
+/// The parameter that the scenario sweeps: the one of aspect ratio, dip and confining pressure with most values.
+const Axis& swept_axis(const StudyResult& study);
+extern const Axis confining_axis;
+/// Cases of a test along it.
 std::vector<SeriesCase> swept(const StudyResult& study, std::string_view test);
+/// The cases of one mineral alone, by its name, or of the rock ("").
+StudyResult of_mineral(const StudyResult& study, std::string_view mineral);
 
 /// The four classes of cracks, in the order of every legend. Their colours stay apart for colour-blind readers (hues of
 /// Okabe and Ito 2008) and in grey print (luminance 0.47, 0.00, 0.28, 0.62).

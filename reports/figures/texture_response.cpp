@@ -162,7 +162,8 @@ render::Chart tension_curves(const std::vector<SeriesCase>& cases) {
 
 struct Strength {
   std::string label;
-  double ucs = 0, ts = 0;
+  Spread ucs, ts;
+  double ratio = 0, ratio_deviation = 0;
 };
 
 std::vector<Strength> strengths(const std::vector<SeriesCase>& compression, const std::vector<SeriesCase>& tension) {
@@ -170,15 +171,17 @@ std::vector<Strength> strengths(const std::vector<SeriesCase>& compression, cons
   for (const SeriesCase& item : compression) {
     const auto pulled = std::ranges::find(tension, item.value, &SeriesCase::value);
     if (pulled == tension.end()) continue;
-    const double ucs = result_or_nan(*item.record, "ucs_MPa");
-    const double ts = result_or_nan(*pulled->record, "tensile_strength_MPa");
-    if (std::isfinite(ucs) && ts > 0) found.push_back({item.label, ucs, ts});
+    const Spread ucs = spread_of(item, result("ucs_MPa"));
+    const Spread ts = spread_of(*pulled, result("tensile_strength_MPa"));
+    if (!std::isfinite(ucs.mean) || !(ts.mean > 0)) continue;
+    const double ratio = ucs.mean / ts.mean;
+    found.push_back({item.label, ucs, ts, ratio, ratio * std::hypot(ucs.deviation / ucs.mean, ts.deviation / ts.mean)});
   }
   return found;
 }
 
 // Bars for a strength, and the ratio as a line on the right axis (only once).
-render::Chart strength_bars(const std::vector<Strength>& found, double Strength::*value, const std::string& title,
+render::Chart strength_bars(const std::vector<Strength>& found, Spread Strength::*value, const std::string& title,
                             std::size_t colour, bool ratio) {
   render::Chart chart;
   render::Bars bars;
@@ -187,16 +190,27 @@ render::Chart strength_bars(const std::vector<Strength>& found, double Strength:
   bars.labels = {title};
   bars.colours = {render::palette(colour)};
   bars.values.emplace_back();
+  bars.errors.emplace_back();
   render::Series line{.label = "UCS/TS (right)", .x = {}, .y = {}, .colour = {0, 0, 0}, .marker = render::Marker::diamond,
                       .side = render::Side::right, .y_error = {}};
   double highest = 0;
+  bool repeated = false;
   for (const Strength& one : found) {
+    const Spread& spread = one.*value;
     line.x.push_back(static_cast<double>(bars.categories.size()));
-    line.y.push_back(one.ucs / one.ts);
+    line.y.push_back(one.ratio);
+    line.y_error.push_back(one.ratio_deviation);
     bars.categories.push_back(one.label);
-    bars.values[0].push_back(one.*value);
-    highest = std::max(highest, one.*value);
+    bars.values[0].push_back(spread.mean);
+    bars.errors[0].push_back(spread.deviation);
+    highest = std::max(highest, spread.mean + spread.deviation);
+    repeated = repeated || spread.count > 1;
   }
+  if (!repeated) {
+    bars.errors.clear();
+    line.y_error.clear();
+  }
+  bars.print_values = !repeated;
   chart.bars = bars;
   chart.left.title = title + " (MPa)";
   chart.left.low = 0;
@@ -209,7 +223,7 @@ render::Chart strength_bars(const std::vector<Strength>& found, double Strength:
     chart.series.push_back(line);
   }
   chart.legend = render::Chart::Legend::top_left;
-  chart.width = half_width;
+  chart.width = found.size() > 4 ? 640 : half_width;
   chart.height = half_height;
   return chart;
 }
@@ -217,10 +231,37 @@ render::Chart strength_bars(const std::vector<Strength>& found, double Strength:
 std::string strengths_alt(const std::vector<Strength>& found) {
   std::vector<std::string> parts;
   for (const Strength& one : found) {
-    parts.push_back(fmt::format("{}: UCS {} MPa, TS {} MPa, ratio {}", one.label, number(one.ucs, 4), number(one.ts, 3),
-                                number(one.ucs / one.ts, 3)));
+    parts.push_back(fmt::format("{}: UCS {} MPa, TS {} MPa, ratio {}", one.label, number(one.ucs.mean, 4), number(one.ts.mean, 3),
+                                number(one.ratio, 3)));
   }
   return joined(parts, "; ") + ".";
+}
+
+std::string spread_note(const std::vector<Strength>& found) {
+  return std::ranges::any_of(found, [](const Strength& one) { return one.ucs.count > 1 || one.ts.count > 1; })
+             ? " Means of repeats; bars are one standard deviation." : "";
+}
+
+void add_strengths(FigureContent& content, const std::vector<Strength>& found) {
+  if (found.empty()) return;
+  content.panels.push_back({.id = "strength", .caption = "Uniaxial compressive strength and its ratio to the tensile strength." + spread_note(found),
+                            .alt = strengths_alt(found), .content = strength_bars(found, &Strength::ucs, "UCS", 0, true)});
+  content.panels.push_back({.id = "tensile_strength", .caption = "Tensile strength." + spread_note(found), .alt = strengths_alt(found),
+                            .content = strength_bars(found, &Strength::ts, "TS", 2, false)});
+}
+
+std::string strengths_found(const std::vector<SeriesCase>& compression, const std::vector<SeriesCase>& tension,
+                            const std::vector<Strength>& found, const Axis& axis) {
+  std::string text = "UCS " + by_case(compression, result("ucs_MPa"), 4, "MPa") + "; TS " +
+                     by_case(tension, result("tensile_strength_MPa"), 3, "MPa");
+  std::vector<std::string> ratios;
+  for (const Strength& one : found) ratios.push_back(number(one.ratio, 3));
+  text += ratios.empty() ? "." : "; UCS/TS " + listed(ratios) + ".";
+  const std::string ucs = trend_words(compression, result("ucs_MPa"), "MPa", axis);
+  const std::string ts = trend_words(tension, result("tensile_strength_MPa"), "MPa", axis);
+  if (!ucs.empty()) text += " UCS " + ucs + ".";
+  if (!ts.empty()) text += " TS " + ts + ".";
+  return text;
 }
 
 // Names after `prefix` in the results of any case, in order of first appearance.
@@ -250,7 +291,7 @@ render::Chart share_chart(const std::string& title, const std::vector<SeriesCase
   chart.left.low = 0;
   chart.left.high = 100;
   chart.legend = render::Chart::Legend::outside_right;
-  chart.width = half_width;
+  chart.width = cases.size() > 4 ? 640 : half_width;
   chart.height = 380;
   return chart;
 }
@@ -349,7 +390,6 @@ FigureContent stress_strain(const StudyResult& study) {
       content.panels.push_back(*missing);
     }
   }
-  const auto result = [](const char* name) { return [name](const dem::Record& r) { return result_or_nan(r, name); }; };
   const std::string ucs = by_case(compression, result("ucs_MPa"), 4, "MPa");
   const std::string ts = by_case(tension, result("tensile_strength_MPa"), 3, "MPa");
   if (!compression.empty()) {
@@ -363,16 +403,32 @@ FigureContent stress_strain(const StudyResult& study) {
                               .content = tension_curves(tension)});
   }
   const auto found = strengths(compression, tension);
-  if (!found.empty()) {
-    content.panels.push_back({.id = "strength", .caption = "Uniaxial compressive strength and its ratio to the tensile strength.",
-                              .alt = strengths_alt(found), .content = strength_bars(found, &Strength::ucs, "UCS", 0, true)});
-    content.panels.push_back({.id = "tensile_strength", .caption = "Tensile strength.", .alt = strengths_alt(found),
-                              .content = strength_bars(found, &Strength::ts, "TS", 2, false)});
+  add_strengths(content, found);
+  content.finding = strengths_found(compression, tension, found, swept_axis(study));
+  return content;
+}
+
+FigureContent dip_strengths(const StudyResult& study) {
+  FigureContent content;
+  content.statement = "With the dip of the long axes from 0° to 90° the tensile strength rises strongly and UCS rises, weakest at 0°; "
+                      "UCS/TS falls from 21 to 17.";
+  const auto compression = swept(study, test_compression);
+  const auto tension = swept(study, test_tension);
+  for (const std::string_view test : {test_compression, test_tension}) {
+    if (auto missing = missing_cases(study, test)) {
+      missing->id += "_" + std::string(test);
+      content.panels.push_back(*missing);
+    }
   }
-  content.finding = "UCS " + ucs + "; TS " + ts;
-  std::vector<std::string> ratios;
-  for (const Strength& one : found) ratios.push_back(number(one.ucs / one.ts, 3));
-  content.finding += ratios.empty() ? "." : "; UCS/TS " + listed(ratios) + ".";
+  const auto found = strengths(compression, tension);
+  add_strengths(content, found);
+  content.finding = strengths_found(compression, tension, found, swept_axis(study));
+  return content;
+}
+
+FigureContent dip_group_shares(const StudyResult& study) {
+  FigureContent content = group_shares(study);
+  content.statement = "The dip changes the shares neither of the minerals nor of the contact groups.";
   return content;
 }
 
@@ -397,6 +453,8 @@ FigureContent group_shares(const StudyResult& study) {
     content.panels.push_back({.id = "groups", .caption = "Every contact group.", .alt = "", .content = contact_table(cases)});
   }
   content.finding = "Contacts between grains: " + inter + ".";
+  const std::string trend = trend_words(cases, result("inter_grain_share", 100), "points", swept_axis(study));
+  if (!trend.empty()) content.finding += " Their share " + trend + ".";
   return content;
 }
 

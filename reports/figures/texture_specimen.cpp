@@ -67,8 +67,9 @@ render::Point along(const render::Point& from, const render::Point& direction, d
   return {from[0] + distance * direction[0], from[1] + distance * direction[1], from[2] + distance * direction[2]};
 }
 
-// Spheres of one grain, its long axis (red, dashed) and a short axis (gold, dashed), seen along the other short axis.
-Picture cluster_picture(const SeriesCase& item, std::size_t index, double reach) {
+// Spheres of one grain, its long axis (red, dashed) and a short axis (gold, dashed), seen along the other short axis; where
+// the long axis dips, the horizontal (grey) stands for the short axis.
+Picture cluster_picture(const SeriesCase& item, std::size_t index, double reach, bool dips) {
   const dem::Record& record = *item.record;
   const Grain grain = grains_of(record)[index];
   const render::Spheres all = particles_by_mineral(record);
@@ -91,8 +92,11 @@ Picture cluster_picture(const SeriesCase& item, std::size_t index, double reach)
   const double beyond = 1.25;
   scene.lines.push_back({{along(front, a, -beyond * grain.semi_long), along(front, a, beyond * grain.semi_long)},
                          {0.75, 0.05, 0.05}, 3.5, render::Line::dash});
-  scene.lines.push_back({{along(front, across, -beyond * grain.semi_short), along(front, across, beyond * grain.semi_short)},
-                         {0.66, 0.46, 0.0}, 3.5, render::Line::dash});
+  const render::Point level{-view[1], view[0], 0};
+  const render::Point& other = dips ? level : across;
+  const double length = beyond * (dips ? grain.semi_long : grain.semi_short);
+  const render::Colour other_colour = dips ? render::Colour{0.35, 0.35, 0.35} : render::Colour{0.66, 0.46, 0.0};
+  scene.lines.push_back({{along(front, other, -length), along(front, other, length)}, other_colour, 3.5, render::Line::dash});
   scene.camera.direction = view;
   scene.camera.frame = {{{grain.centre[0] - reach, grain.centre[1] - reach, grain.centre[2] - 0.75 * reach},
                          {grain.centre[0] + reach, grain.centre[1] + reach, grain.centre[2] + 0.75 * reach}}};
@@ -100,7 +104,7 @@ Picture cluster_picture(const SeriesCase& item, std::size_t index, double reach)
   scene.height = 480;
   return {.scene = std::move(scene),
           .label = fmt::format("{} ({} particles)", item.label, grain.particles),
-          .legend = {{{0.75, 0.05, 0.05}, "long axis"}, {{0.66, 0.46, 0.0}, "short axis"}}};
+          .legend = {{{0.75, 0.05, 0.05}, "long axis"}, {other_colour, dips ? "horizontal" : "short axis"}}};
 }
 
 std::string mineral_shares(const dem::Record& record) {
@@ -172,10 +176,16 @@ FigureContent grain_cluster(const StudyResult& study) {
                                 1e3 * grain.semi_short),
          .alt = fmt::format("Cluster of {} spheres of grain {} ({}) with its long axis of {:.2f} mm and short axis of {:.2f} mm.",
                             grain.particles, *index, mineral, 2e3 * grain.semi_long, 2e3 * grain.semi_short),
-         .content = cluster_picture(item, *index, reach),
+         .content = cluster_picture(item, *index, reach, swept_axis(study).parameter == "dip"),
          .per_row = 3});
   }
   content.finding = fmt::format("Grain {} has {} particles.", *index, listed(counts));
+  return content;
+}
+
+FigureContent dip_clusters(const StudyResult& study) {
+  FigureContent content = grain_cluster(study);
+  content.statement = "The same grain with its long axis at dips of 0° to 90°.";
   return content;
 }
 

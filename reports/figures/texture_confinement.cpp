@@ -1,0 +1,289 @@
+// The granite under confining pressure: stress-strain curves (Zhao et al. 2021, Fig. 10), strengths and their envelopes
+// (Fig. 11), and how the stress falls after the peak.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "reports/envelopes.h"
+#include "reports/figures/table.h"
+#include "reports/figures/texture_parts.h"
+#include "reports/text.h"
+
+namespace reports::texture {
+namespace {
+
+constexpr int half_width = 440, curves_height = 380;
+constexpr double small_strain = 0.15;  // %: what Fig. 10 enlarges reaches a little past crack initiation
+
+const render::Colour peak_colour = render::palette(0), damage_colour = render::palette(1), initiation_colour = render::palette(2);
+
+double peak_stress(const dem::Record& record) {
+  return record.has_result("ucs_MPa") ? record.result("ucs_MPa") : result_or_nan(record, "confined_strength_MPa");
+}
+
+std::vector<SeriesCase> confined(const StudyResult& study) {
+  return series_of(of_mineral(study, ""), test_compression, confining_axis);
+}
+
+std::vector<double> tensile_strengths(const StudyResult& study) {
+  std::vector<double> values;
+  for (const SeriesCase& item : series_of(of_mineral(study, ""), test_tension, confining_axis)) {
+    for (const dem::Record* record : item.repeats) {
+      const double ts = result_or_nan(*record, "tensile_strength_MPa");
+      if (std::isfinite(ts)) values.push_back(ts);
+    }
+  }
+  return values;
+}
+
+struct Column {
+  const char *name, *title;
+  double factor;
+};
+
+// One column of every history against the axial strain, up to a strain (%) or to the end.
+render::Chart against_strain(const std::vector<SeriesCase>& cases, const Column& column, double up_to) {
+  render::Chart chart;
+  chart.x.title = "Axial strain (%)";
+  chart.left.title = column.title;
+  for (const SeriesCase& item : cases) {
+    render::Series all = curve(item.record->table("history"), {"axial_strain", column.name, 100, column.factor});
+    render::Series series = all;
+    series.x.clear();
+    series.y.clear();
+    for (std::size_t i = 0; i < all.x.size() && all.x[i] <= up_to; ++i) {
+      series.x.push_back(all.x[i]);
+      series.y.push_back(all.y[i]);
+    }
+    if (series.x.empty()) continue;
+    series.label = item.label;
+    series.colour = item.colour;
+    series.line = item.line;
+    chart.series.push_back(series);
+  }
+  chart.legend = render::Chart::Legend::below;
+  chart.width = half_width;
+  chart.height = curves_height;
+  return chart;
+}
+
+void mark_initiation(render::Chart& chart, const std::vector<SeriesCase>& cases, const Measure& height) {
+  render::Series marks{.label = "σci by axial stiffness", .x = {}, .y = {}, .colour = {0, 0, 0}, .line = render::Line::none,
+                       .marker = render::Marker::diamond, .y_error = {}};
+  for (const SeriesCase& item : cases) {
+    const double strain = 100 * result_or_nan(*item.record, "crack_initiation_strain.axial_stiffness");
+    const double y = height(*item.record);
+    if (!std::isfinite(strain) || !std::isfinite(y) || strain > small_strain) continue;
+    marks.x.push_back(strain);
+    marks.y.push_back(y);
+  }
+  if (!marks.x.empty()) chart.series.push_back(marks);
+}
+
+double stiffness_at_initiation(const dem::Record& record) {
+  const dem::Table& history = record.table("history");
+  return 1e-9 * at_first(history.real("axial_strain"), history.real("axial_stiffness"),
+                         result_or_nan(record, "crack_initiation_strain.axial_stiffness"));
+}
+
+/// An envelope of the paper whose formula it gives.
+struct Published {
+  const char* name;
+  double sigma_c, m, s;
+};
+// Eq. 11, and Martin's fit to laboratory tests as section 3.3 quotes it.
+constexpr Published published_peak{"published peak", 206, 29, 1}, published_damage{"published damage", 206, 16, 0.6},
+    martin{"Martin’s laboratory peak", 210, 28.9, 1};
+constexpr double published_intercept = 71.1, published_slope = 1.1;
+
+template <typename Function>
+render::Series sampled_line(double low, double high, const std::string& label, const render::Colour& colour, render::Line line,
+                            const Function& at) {
+  render::Series series{.label = label, .x = {}, .y = {}, .colour = colour, .line = line, .y_error = {}};
+  for (int i = 0; i <= 60; ++i) {
+    const double x = low + (high - low) * i / 60;
+    const double y = at(x);
+    if (!std::isfinite(y)) continue;
+    series.x.push_back(x);
+    series.y.push_back(y);
+  }
+  return series;
+}
+
+render::Series points(const StrengthPoints& of, const std::string& label, const render::Colour& colour, render::Marker marker) {
+  return {.label = label, .x = of.sigma_3, .y = of.sigma_1, .colour = colour, .line = render::Line::none, .marker = marker, .y_error = {}};
+}
+
+render::Chart envelope_chart(const Envelopes& found, const std::vector<double>& tension) {
+  render::Chart chart;
+  chart.x.title = "Confining pressure σ₃ (MPa)";
+  chart.left.title = "Axial stress σ₁ (MPa)";
+  chart.left.low = 0;
+  double high = 10;
+  for (const double x : found.peak.sigma_3) high = std::max(high, x);
+  chart.series.push_back(points(found.peak, "peak", peak_colour, render::Marker::circle));
+  chart.series.push_back(points(found.damage, "crack damage", damage_colour, render::Marker::square));
+  chart.series.push_back(points(found.initiation, "crack initiation", initiation_colour, render::Marker::triangle));
+  std::erase_if(chart.series, [](const render::Series& s) { return s.x.empty(); });
+  if (!tension.empty()) {
+    render::Series ts{.label = "direct tension", .x = {}, .y = {}, .colour = {0, 0, 0}, .line = render::Line::none,
+                      .marker = render::Marker::diamond, .y_error = {}};
+    for (const double t : tension) {
+      ts.x.push_back(-t);
+      ts.y.push_back(0);
+    }
+    chart.series.push_back(ts);
+  }
+  const auto line = [&](const std::string& label, const render::Colour& colour, render::Line kind, const auto& at) {
+    chart.series.push_back(sampled_line(0, high, label, colour, kind, at));
+  };
+  if (found.peak_fit) line("our fits", peak_colour, render::Line::solid, [&](double x) { return found.peak_fit->at(x); });
+  if (found.damage_fit) line("", damage_colour, render::Line::solid, [&](double x) { return found.damage_fit->at(x); });
+  if (found.initiation_fit) line("", initiation_colour, render::Line::solid, [&](double x) { return found.initiation_fit->at(x); });
+  const auto published = [](const Published& p) { return [p](double x) { return hoek_brown(x, p.sigma_c, p.m, p.s); }; };
+  line("published fits", peak_colour, render::Line::dash, published(published_peak));
+  line("", damage_colour, render::Line::dash, published(published_damage));
+  line("", initiation_colour, render::Line::dash, [](double x) { return published_intercept + published_slope * x; });
+  line(martin.name, {0.4, 0.4, 0.4}, render::Line::dot, published(martin));
+  chart.legend = render::Chart::Legend::below;
+  chart.width = 640;
+  chart.height = 480;
+  return chart;
+}
+
+TextTable envelope_table(const Envelopes& found) {
+  TextTable table{{"Envelope", "Parameter", "Published", "Ours (95 % interval)", "Points"}, {}};
+  const auto row = [&](const char* envelope, const char* parameter, double value, std::string_view name, std::size_t n) {
+    const auto estimate = found.find(name);
+    table.rows.push_back({envelope, parameter, shortest(value), estimate ? estimate_text(*estimate, 3, true) : "no fit",
+                          std::to_string(n)});
+  };
+  row("peak, s = 1", "σc (MPa)", published_peak.sigma_c, "peak.sigma_c", found.peak.sigma_1.size());
+  row("", "m", published_peak.m, "peak.m", found.peak.sigma_1.size());
+  row("crack damage, σc of the peak", "m", published_damage.m, "damage.m", found.damage.sigma_1.size());
+  row("", "s", published_damage.s, "damage.s", found.damage.sigma_1.size());
+  row("crack initiation, a line", "at σ₃ = 0 (MPa)", published_intercept, "initiation.intercept", found.initiation.sigma_1.size());
+  row("", "slope", published_slope, "initiation.slope", found.initiation.sigma_1.size());
+  return table;
+}
+
+}  // namespace
+
+FigureContent confinement_curves(const StudyResult& study) {
+  FigureContent content;
+  content.statement = "The peak rises with the confining pressure. Crack initiation, where the axial stiffness starts to fluctuate, "
+                      "stays below 0.1 % strain.";
+  const auto cases = confined(study);
+  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  if (cases.empty()) return content;
+  const std::string peaks = by_case(cases, peak_stress, 4, "MPa");
+  const std::string strains = by_case(cases, result("crack_initiation_strain.axial_stiffness", 100), 2, "%");
+  render::Chart whole = against_strain(cases, {"axial_stress", "Axial stress σ₁ (MPa)", 1e-6}, 1e300);
+  whole.left.low = 0;
+  content.panels.push_back({.id = "stress", .caption = "Axial stress against axial strain, from the isotropic state, to the end of the test.",
+                            .alt = "Stress-strain curves; peaks of " + peaks + ".", .content = whole});
+  render::Chart start = against_strain(cases, {"axial_stress", "Axial stress σ₁ (MPa)", 1e-6}, small_strain);
+  start.left.low = 0;
+  mark_initiation(start, cases, result("crack_initiation_MPa.axial_stiffness"));
+  content.panels.push_back({.id = "start", .caption = "The same at small strains, with crack initiation.",
+                            .alt = "Stress at small strains; crack initiation at strains of " + strains + ".", .content = start});
+  render::Chart stiffness = against_strain(cases, {"axial_stiffness", "Axial stiffness (GPa)", 1e-9}, small_strain);
+  double highest = 0;
+  for (const SeriesCase& item : cases) highest = std::max(highest, result_or_nan(*item.record, "young_modulus_GPa"));
+  stiffness.left.low = 0;
+  if (highest > 0) stiffness.left.high = 1.4 * highest;
+  mark_initiation(stiffness, cases, stiffness_at_initiation);
+  content.panels.push_back({.id = "stiffness", .caption = "Axial stiffness (Eq. 9) at small strains, with crack initiation.",
+                            .alt = "Axial stiffness; Young’s moduli of " + by_case(cases, result("young_modulus_GPa"), 3, "GPa") + ".",
+                            .content = stiffness});
+  content.finding = "At " + joined([&] {
+                      std::vector<std::string> labels;
+                      for (const SeriesCase& item : cases) labels.push_back(item.label);
+                      return labels;
+                    }(), ", ") + " the peaks are " + peaks + ", and cracks initiate at strains of " + strains + ".";
+  return content;
+}
+
+FigureContent confinement_envelopes(const StudyResult& study) {
+  FigureContent content;
+  content.statement = "Hoek-Brown envelopes with σc 206 MPa and m 29, s 1 for the peak, m 16, s 0.6 for crack damage; crack initiation at "
+                      "71.1 MPa + 1.1 σ₃, within the range of laboratories, (0.3 to 0.5) σc + (1 to 1.5) σ₃ (Eq. 12). Points of the flat "
+                      "joint model and of laboratories, which the text does not list, are left out.";
+  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  const Envelopes found = envelopes_of(study);
+  if (found.peak.sigma_3.empty()) return content;
+  const auto tension = tensile_strengths(study);
+  std::vector<std::string> said;
+  if (found.peak_fit) {
+    said.push_back("peak with σc " + estimate_text(found.peak_fit->sigma_c, 3) + " MPa and m " + estimate_text(found.peak_fit->m, 3));
+  }
+  if (found.damage_fit) {
+    said.push_back("crack damage with m " + estimate_text(found.damage_fit->m, 3) + " and s " + estimate_text(found.damage_fit->s, 2));
+  }
+  if (found.initiation_fit) {
+    said.push_back("crack initiation at " + estimate_text(found.initiation_fit->intercept, 3) + " MPa with a slope of " +
+                   estimate_text(found.initiation_fit->slope, 2));
+  }
+  const std::string fits = said.empty() ? "too few pressures for a fit" : joined(said, "; ");
+  content.panels.push_back({.id = "", .caption = "Strengths against confining pressure with fitted envelopes; the tensile strength stands at −σ₃.",
+                            .alt = "Peak stresses from " + number(std::ranges::min(found.peak.sigma_1), 3) + " to " +
+                                   number(std::ranges::max(found.peak.sigma_1), 3) + " MPa. Fits: " + fits + ".",
+                            .content = envelope_chart(found, tension)});
+  content.panels.push_back({.id = "parameters", .caption = "Parameters of the envelopes, by least squares of σ₁.", .alt = "",
+                            .content = envelope_table(found), .per_row = 1});
+  content.finding = "Fitted: " + fits + ".";
+  if (found.initiation_fit && found.peak_fit) {
+    const double share = found.initiation_fit->intercept.value / found.peak_fit->sigma_c.value, slope = found.initiation_fit->slope.value;
+    const bool inside = share >= 0.3 && share <= 0.5 && slope >= 1 && slope <= 1.5;
+    content.finding += fmt::format(" As in Eq. 13, initiation is {} σc {} {} σ₃: {} the range of Eq. 12.", number(share, 2),
+                                   slope < 0 ? "−" : "+", number(std::abs(slope), 2), inside ? "inside" : "outside");
+  }
+  return content;
+}
+
+FigureContent confinement_after_peak(const StudyResult& study) {
+  FigureContent content;
+  content.statement = "After the peak the rock turns from brittle to ductile with confining pressure.";
+  const auto cases = confined(study);
+  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  const Measure residual = result("residual_over_peak");
+  render::Series series = means(cases, residual);
+  if (series.x.empty()) {
+    content.panels.push_back(note_panel("none", "After the peak.", "No test was followed past its peak (compression.follow)."));
+    return content;
+  }
+  series.colour = peak_colour;
+  render::Chart chart;
+  chart.x.title = confining_axis.title;
+  chart.left.title = "Residual over peak stress";
+  chart.left.low = 0;
+  chart.left.high = 1.1;
+  chart.series.push_back(series);
+  chart.legend = render::Chart::Legend::none;
+  chart.width = half_width;
+  chart.height = 310;
+  const std::string ratios = by_case(cases, residual, 2, "");
+  content.panels.push_back({.id = "residual", .caption = "Residual stress over the peak: the mean over the last twentieth of the strain that all tests are followed to, as a multiple of their peak’s.",
+                            .alt = "Residual over peak " + ratios + ".", .content = chart, .per_row = 2});
+  TextTable servo{{"Confining pressure (MPa)", "Largest error of the servo (%)"}, {}};
+  double worst = 0;
+  for (const SeriesCase& item : cases) {
+    const double error = spread_of(item, result("servo_error", 100)).mean;
+    if (!std::isfinite(error)) continue;
+    worst = std::max(worst, error);
+    servo.rows.push_back({number(item.value), number(error, 2)});
+  }
+  if (!servo.rows.empty()) {
+    content.panels.push_back({.id = "servo", .caption = "Largest departure of the wall’s pressure from its set value, over the whole test.",
+                              .alt = "", .content = servo, .per_row = 2});
+  }
+  content.finding = "Residual over peak: " + ratios + ".";
+  const std::string trend = trend_words(cases, residual, "", confining_axis);
+  if (!trend.empty()) content.finding += " It " + trend + ".";
+  if (!servo.rows.empty()) content.finding += " The confining pressure is kept within " + number(worst, 2) + " %.";
+  return content;
+}
+
+}  // namespace reports::texture

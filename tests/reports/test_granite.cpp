@@ -1,0 +1,209 @@
+// Figures of the granite under confining pressure, by dip and of its minerals, from made-up records: what they say of known
+// numbers, and that missing cases leave them standing.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "reports/envelopes.h"
+#include "reports/figures/table.h"
+#include "reports/figures/texture_parts.h"
+#include "reports/orientation.h"
+#include "reports/published.h"
+#include "tests/reports/synthetic.h"
+#include "tests/support/scratch.h"
+
+namespace {
+
+using doctest::Approx;
+
+constexpr synthetic::Options small{.diameter = 3e-3, .height = 6e-3, .samples = 40};
+
+/// A study whose records are made from one compression test, changed by parameter and result.
+struct Made {
+  test::Scratch scratch;
+  dem::Scenario scenario;
+  std::vector<dem::Record> records;
+
+  explicit Made(const std::string& name) : scenario(synthetic::scenario(scratch.path(), name)) {}
+
+  static const dem::Record& pattern() {
+    static const dem::Record record = synthetic::compression(1, small);
+    return record;
+  }
+  dem::Record& add(const std::string& id, const std::string& test, double pressure, double dip, const std::string& mineral, double seed) {
+    dem::Record record = pattern();
+    record.case_id = id;
+    record.parameters = {{"test", test}, {"aspect_ratio", 1.0}, {"dip", dip}, {"mineral", mineral},
+                         {"confining_pressure_MPa", pressure}, {"seed", seed}};
+    std::erase_if(record.results, [](const auto& r) { return r.first == "ucs_MPa" || r.first == "crack_damage_MPa" || r.first == "crack_initiation_MPa.axial_stiffness"; });
+    records.push_back(record);
+    return records.back();
+  }
+  void add_confined(double pressure, const std::string& mineral = "", double more = 0, double seed = 1) {
+    std::string id = "compression_" + (mineral.empty() ? "ar_1" : mineral);
+    if (pressure > 0) id += "_sigma3_" + std::to_string(static_cast<int>(pressure));
+    if (seed > 1) id += "_seed_" + std::to_string(static_cast<int>(seed));
+    auto& results = add(id, "compression", pressure, 0, mineral, seed).results;
+    results.emplace_back(pressure > 0 ? "confined_strength_MPa" : "ucs_MPa", reports::hoek_brown(pressure, 206, 29, 1) + more);
+    results.emplace_back("crack_damage_MPa", reports::hoek_brown(pressure, 206, 16, 0.6) + more);
+    results.emplace_back("crack_initiation_MPa.axial_stiffness", 71.1 + 1.1 * pressure);
+    results.emplace_back("residual_over_peak", 0.2 + 0.01 * pressure);
+    if (pressure > 0) results.emplace_back("servo_error", 0.004);
+  }
+  [[nodiscard]] reports::StudyResult study() const {
+    reports::StudyResult result{&scenario, {}};
+    for (const auto& record : records) result.cases.push_back({record.case_id, &record, ""});
+    return result;
+  }
+};
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("envelopes are fitted through the cases of a study, each rock or mineral on its own") {
+  Made made("ldb_confinement");
+  for (const double pressure : {0.0, 5.0, 10.0, 20.0, 40.0, 60.0}) made.add_confined(pressure);
+  made.add_confined(20, "quartz", 300);
+  const auto found = reports::envelopes_of(made.study());
+  CHECK(found.find("peak.m")->value == Approx(29).epsilon(1e-6));
+  CHECK(found.find("peak.sigma_c")->value == Approx(206).epsilon(1e-6));
+  CHECK(found.find("damage.s")->value == Approx(0.6).epsilon(1e-6));
+  CHECK(found.find("initiation.slope")->value == Approx(1.1));
+  CHECK_FALSE(reports::envelopes_of(made.study(), "quartz").find("peak.m"));
+  CHECK(reports::envelopes_of(made.study(), "quartz").peak.sigma_3.size() == 1);
+}
+
+TEST_CASE("figures under confinement say what the records hold") {
+  Made made("ldb_confinement");
+  for (const double pressure : {0.0, 10.0, 40.0}) made.add_confined(pressure);
+  const auto envelopes = reports::texture::confinement_envelopes(made.study());
+  CHECK(envelopes.panels.size() == 2);
+  CHECK(has(envelopes.finding, "m 29"));
+  CHECK(has(envelopes.finding, "inside the range of Eq. 12"));
+  const auto after = reports::texture::confinement_after_peak(made.study());
+  CHECK(has(after.finding, "0.2, 0.3 and 0.6"));
+  CHECK(has(after.finding, "within 0.4 %"));
+  CHECK(has(reports::texture::confinement_curves(made.study()).finding, "206"));
+  CHECK(reports::texture::crack_orientation(made.study()).panels.size() == 3);
+  const auto counts = reports::texture::confinement_crack_counts(made.study());
+  CHECK(counts.panels.size() == 2);
+  CHECK(std::ranges::all_of(counts.panels, [](const reports::Panel& p) { return std::get<render::Chart>(p.content).x.title.find("σ₃") != std::string::npos; }));
+}
+
+TEST_CASE("figures stand with one case and with none") {
+  for (const std::size_t cases : {0UL, 1UL}) {
+    Made made("ldb_confinement");
+    if (cases == 1) made.add_confined(10);
+    for (const reports::Figure& figure : reports::figures()) {
+      if (figure.model != "grain_texture") continue;
+      CAPTURE(figure.id);
+      CHECK_NOTHROW((void)figure.make(made.study()));
+    }
+  }
+}
+
+TEST_CASE("repeats give means, error bars and trends over all seeds") {
+  Made made("ldb_confinement");
+  for (const double pressure : {0.0, 20.0, 40.0}) {
+    made.add_confined(pressure, "", -3, 1);
+    made.add_confined(pressure, "", +3, 2);
+  }
+  const auto cases = reports::texture::swept(made.study(), "compression");
+  REQUIRE(cases.size() == 3);
+  const auto damage = reports::spread_of(cases[0], reports::result("crack_damage_MPa"));
+  CHECK(damage.mean == Approx(206 * std::sqrt(0.6)));
+  CHECK(damage.deviation == Approx(std::sqrt(18.0)));
+  CHECK(reports::means(cases, reports::result("crack_damage_MPa")).y_error.size() == 3);
+  const auto trend = reports::trend_of(cases, reports::result("crack_damage_MPa"));
+  CHECK(trend->points == 6);
+  CHECK(has(reports::trend_words(cases, reports::result("crack_damage_MPa"), "MPa", reports::texture::confining_axis), "rises by"));
+  CHECK(has(reports::trend_words(cases, reports::result("young_modulus_GPa"), "GPa", reports::texture::confining_axis), "no trend"));
+}
+
+TEST_CASE("published numbers of the granite are compared with fits, means and trends") {
+  const auto rows_of = [](const reports::StudyResult& study) {
+    return reports::compare(study, std::filesystem::path(DEM_SOURCE_DIR) / "assets/published").rows;
+  };
+  const auto row = [](const std::vector<reports::Comparison>& rows, const std::string& id) {
+    const auto found = std::ranges::find(rows, id, &reports::Comparison::id);
+    REQUIRE(found != rows.end());
+    return *found;
+  };
+  Made made("ldb_confinement");
+  for (const double pressure : {0.0, 10.0, 40.0}) {
+    made.add_confined(pressure, "", -3, 1);
+    made.add_confined(pressure, "", +3, 2);
+  }
+  const auto rows = rows_of(made.study());
+  const auto m = row(rows, "envelope_peak_m");
+  CHECK(m.verdict == reports::Verdict::met);
+  CHECK(has(m.detail, "95 % interval"));
+  const auto ucs = row(rows, "ucs_ar_1");
+  CHECK(std::get<double>(*ucs.computed) == Approx(206));
+  CHECK(has(ucs.detail, "mean of 2 seeds"));
+  const auto residual = row(rows, "trend_residual_with_pressure");
+  CHECK(residual.verdict == reports::Verdict::met);
+  CHECK(has(residual.detail, "not run: 5, 20, 60"));
+  CHECK(has(residual.detail, "p = "));
+}
+
+TEST_CASE("each scenario of the granite has its published numbers, with unlike ids") {
+  for (const char* name : {"ldb_uniaxial", "ldb_confinement", "ldb_dip_angle", "ldb_minerals"}) {
+    CAPTURE(name);
+    const Made made(name);
+    const auto rows = reports::compare(made.study(), std::filesystem::path(DEM_SOURCE_DIR) / "assets/published").rows;
+    CHECK(rows.size() >= 10);
+    std::vector<std::string> ids;
+    for (const auto& row : rows) {
+      CHECK(row.verdict == reports::Verdict::not_computed);
+      ids.push_back(row.id);
+    }
+    std::ranges::sort(ids);
+    CHECK(std::ranges::adjacent_find(ids) == ids.end());
+  }
+}
+
+TEST_CASE("directions of cracks are weighted by area and told apart by mode") {
+  dem::Table cracks{.name = "cracks", .attributes = {}, .columns = {}};
+  cracks.add("normal", "1", std::vector<double>{1, 0, 0, 0, 0, -1, 0, std::sqrt(0.5), std::sqrt(0.5)}, 3);
+  cracks.add("area", "m^2", std::vector<double>{2, 1, 1});
+  cracks.add("mode", "", std::vector<std::int32_t>{0, 0, 1});
+  const auto all = reports::orientation_of(cracks, 0);
+  CHECK(all.mean == Approx((2 * 0.0 + 90 + 45) / 4));
+  CHECK(all.along == Approx(0.5));
+  CHECK(all.share.front() == Approx(0.5));
+  CHECK(all.share.back() == Approx(0.25));
+  CHECK(reports::orientation_of(cracks, 0, 1).mean == Approx(45));
+  CHECK(reports::orientation_of(cracks, 1, 0).mean == Approx(90));
+  CHECK(std::isnan(reports::orientation_of(cracks, 3).mean));
+}
+
+TEST_CASE("a band of cracks is found at its angle to the axis") {
+  std::vector<double> particle, volume;
+  for (int x = -10; x <= 10; ++x) {
+    for (int y = -10; y <= 10; ++y) {
+      for (int z = -20; z <= 20; ++z) {
+        if (x * x + y * y > 100) continue;
+        particle.insert(particle.end(), {0.1 * x, 0.1 * y, 0.1 * z});
+        volume.push_back(1);
+      }
+    }
+  }
+  for (const int angle : {0, 25, 60}) {
+    CAPTURE(angle);
+    const double a = angle * std::numbers::pi / 180;
+    std::vector<double> crack;
+    for (std::size_t i = 0; i < volume.size(); ++i) {
+      const double distance = std::cos(a) * particle[3 * i] + std::sin(a) * particle[3 * i + 2];
+      if (std::abs(distance) < 0.15) crack.insert(crack.end(), {particle[3 * i], particle[3 * i + 1], particle[3 * i + 2]});
+    }
+    const std::vector<double> area(crack.size() / 3, 1.0);
+    const auto band = reports::densest_band(crack, area, particle, volume, 0.35);
+    CHECK(std::abs(band.inclination - angle) <= 5);
+    CHECK(band.cracks > 0.8);
+    CHECK(band.concentration() > 2);
+  }
+}
