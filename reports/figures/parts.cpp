@@ -110,7 +110,7 @@ std::string trend_words(const std::vector<SeriesCase>& cases, const Measure& val
   const auto fit = trend_of(cases, value);
   if (!fit) return {};
   const double slope = fit->slope.value;
-  const std::string of = (unit.empty() ? "" : " " + std::string(unit)) + " per " + std::string(axis.step);
+  const std::string of = (unit.empty() || unit == "°" ? std::string(unit) : " " + std::string(unit)) + " per " + std::string(axis.step);
   if (!fit->slope.has_interval()) {
     return fmt::format("{} by {}{} between two points", slope < 0 ? "falls" : "rises", number(std::abs(slope), 2), of);
   }

@@ -15,7 +15,6 @@ namespace reports::texture {
 namespace {
 
 constexpr int half_width = 440, curves_height = 380;
-constexpr double small_strain = 0.15;  // %: what Fig. 10 enlarges reaches a little past crack initiation
 
 const render::Colour peak_colour = render::palette(0), damage_colour = render::palette(1), initiation_colour = render::palette(2);
 
@@ -36,6 +35,16 @@ std::vector<double> tensile_strengths(const StudyResult& study) {
     }
   }
   return values;
+}
+
+// What Fig. 10 enlarges reaches a little past crack initiation (%).
+double small_strain(const std::vector<SeriesCase>& cases) {
+  double reach = 0.15;
+  for (const SeriesCase& item : cases) {
+    const double strain = 100 * result_or_nan(*item.record, "crack_initiation_strain.axial_stiffness");
+    if (std::isfinite(strain)) reach = std::max(reach, 1.1 * strain);
+  }
+  return reach;
 }
 
 struct Column {
@@ -75,7 +84,7 @@ void mark_initiation(render::Chart& chart, const std::vector<SeriesCase>& cases,
   for (const SeriesCase& item : cases) {
     const double strain = 100 * result_or_nan(*item.record, "crack_initiation_strain.axial_stiffness");
     const double y = height(*item.record);
-    if (!std::isfinite(strain) || !std::isfinite(y) || strain > small_strain) continue;
+    if (!std::isfinite(strain) || !std::isfinite(y)) continue;
     marks.x.push_back(strain);
     marks.y.push_back(y);
   }
@@ -184,12 +193,12 @@ FigureContent confinement_curves(const StudyResult& study) {
   whole.left.low = 0;
   content.panels.push_back({.id = "stress", .caption = "Axial stress against axial strain, from the isotropic state, to the end of the test.",
                             .alt = "Stress-strain curves; peaks of " + peaks + ".", .content = whole});
-  render::Chart start = against_strain(cases, {"axial_stress", "Axial stress σ₁ (MPa)", 1e-6}, small_strain);
+  render::Chart start = against_strain(cases, {"axial_stress", "Axial stress σ₁ (MPa)", 1e-6}, small_strain(cases));
   start.left.low = 0;
   mark_initiation(start, cases, result("crack_initiation_MPa.axial_stiffness"));
   content.panels.push_back({.id = "start", .caption = "The same at small strains, with crack initiation.",
                             .alt = "Stress at small strains; crack initiation at strains of " + strains + ".", .content = start});
-  render::Chart stiffness = against_strain(cases, {"axial_stiffness", "Axial stiffness (GPa)", 1e-9}, small_strain);
+  render::Chart stiffness = against_strain(cases, {"axial_stiffness", "Axial stiffness (GPa)", 1e-9}, small_strain(cases));
   double highest = 0;
   for (const SeriesCase& item : cases) highest = std::max(highest, result_or_nan(*item.record, "young_modulus_GPa"));
   stiffness.left.low = 0;
@@ -262,11 +271,11 @@ FigureContent confinement_after_peak(const StudyResult& study) {
   chart.left.high = 1.1;
   chart.series.push_back(series);
   chart.legend = render::Chart::Legend::none;
-  chart.width = half_width;
-  chart.height = 310;
+  chart.width = 600;
+  chart.height = 280;
   const std::string ratios = by_case(cases, residual, 2, "");
   content.panels.push_back({.id = "residual", .caption = "Residual stress over the peak: the mean over the last twentieth of the strain that all tests are followed to, as a multiple of their peak’s.",
-                            .alt = "Residual over peak " + ratios + ".", .content = chart, .per_row = 2});
+                            .alt = "Residual over peak " + ratios + ".", .content = chart});
   TextTable servo{{"Confining pressure (MPa)", "Largest error of the servo (%)"}, {}};
   double worst = 0;
   for (const SeriesCase& item : cases) {
@@ -277,7 +286,7 @@ FigureContent confinement_after_peak(const StudyResult& study) {
   }
   if (!servo.rows.empty()) {
     content.panels.push_back({.id = "servo", .caption = "Largest departure of the wall’s pressure from its set value, over the whole test.",
-                              .alt = "", .content = servo, .per_row = 2});
+                              .alt = "", .content = servo, .per_row = 1});
   }
   content.finding = "Residual over peak: " + ratios + ".";
   const std::string trend = trend_words(cases, residual, "", confining_axis);

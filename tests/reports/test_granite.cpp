@@ -84,8 +84,8 @@ TEST_CASE("figures under confinement say what the records hold") {
   CHECK(has(envelopes.finding, "m 29"));
   CHECK(has(envelopes.finding, "inside the range of Eq. 12"));
   const auto after = reports::texture::confinement_after_peak(made.study());
-  CHECK(has(after.finding, "0.2, 0.3 and 0.6"));
-  CHECK(has(after.finding, "within 0.4 %"));
+  CHECK(has(after.finding, "0.20, 0.30 and 0.60"));
+  CHECK(has(after.finding, "within 0.40 %"));
   CHECK(has(reports::texture::confinement_curves(made.study()).finding, "206"));
   CHECK(reports::texture::crack_orientation(made.study()).panels.size() == 3);
   const auto counts = reports::texture::confinement_crack_counts(made.study());
