@@ -97,8 +97,12 @@ void Assembly::move_walls() {
   }
   jacket_.radius_before = radius;
   if (radius > 0) {
-    const double excess = jacket_force - jacket_.pressure * 2 * std::numbers::pi * radius * height;
-    jacket_.radius += newton(excess, jacket_stiffness, jacket_.stiffness);
+    // What the particles alone did to the force in the last step, they will do again in the next.
+    const double moved = jacket_force - jacket_.force_before + jacket_stiffness * jacket_.drift;
+    const double excess = jacket_force + moved - jacket_.pressure * 2 * std::numbers::pi * radius * height;
+    jacket_.drift = newton(excess, jacket_stiffness, jacket_.stiffness);
+    jacket_.force_before = jacket_force;
+    jacket_.radius += jacket_.drift;
   }
 }
 

@@ -92,7 +92,7 @@ class Assembly {
   void drive(double lower, double upper, std::int64_t ramp);
   /// Confining pressure (Pa) on the jacket, and on both platens until they are driven, reached linearly over `ramp` steps
   /// from now. These walls have no mass: at each step each of them goes to where its contacts carry the pressure, by one
-  /// Newton step from the forces of the step before.
+  /// Newton step from the forces of the step before; the jacket foresees that particles go on pushing as they did.
   void confine(double pressure, std::int64_t ramp);
   /// Advances by `steps` steps and samples at the last of them.
   Sample advance(std::int64_t steps);
@@ -151,6 +151,7 @@ class Assembly {
     double radius = 0, radius_before = 0;        ///< m
     double pressure = 0, target = 0, gain = 0;   ///< Pa, Pa, Pa a step
     double stiffness = 0;                        ///< of all its first contacts, N/m
+    double force_before = 0, drift = 0;          ///< N, m: of the step before
   };
   /// Contacts of one slab, or between two neighbouring slabs.
   struct Block {
