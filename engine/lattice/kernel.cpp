@@ -67,7 +67,8 @@ struct Stretch {
 template <int K>
 inline Stretch stretch(const Constants& c, const Row& row, int at, const Motion& me) {
   const int pitch = c.pitch;
-  if ((row.intact[K * row.chunks + at / lanes] | row.broken[K * row.chunks + at / lanes]) == 0) return Stretch{V{}, V{}, V{}, V{}};
+  if ((row.intact[K * row.chunks + at / lanes] | row.broken[K * row.chunks + at / lanes]) == 0)
+    return Stretch{V{}, V{}, V{}, V{}};
   const double* far = row.other[K] + at;
   const double* r0 = c.bond[row.layer_kind][K];
   const V dx = load(far) - me.ux, dy = load(far + pitch) - me.uy, dz = load(far + 2 * pitch) - me.uz;

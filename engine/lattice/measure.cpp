@@ -122,10 +122,15 @@ const Sample& sample_from(const std::vector<Sample>& h, std::int64_t step) {
   return found == h.end() ? h.back() : *found;
 }
 
+// Largest stress of a test that ended in failure. Loaded along its rows a block may never fail.
+double strength_of(const StrengthTest& test, const Measure& m) {
+  return test.failed() ? m.stress(test.peak()) : std::numeric_limits<double>::quiet_NaN();
+}
+
 void tension_results(Record& r, const Settings& s, const StrengthTest& test, const Measure& m) {
   const auto& h = test.history();
   const double dt = s.setup.time_step;
-  const double strength = m.stress(test.peak());
+  const double strength = strength_of(test, m);
   r.results.emplace_back("tensile_strength_MPa", 1e-6 * strength);
   r.results.emplace_back("tensile_error_percent", 100 * (strength / s.rock.tensile_strength - 1));
   r.results.emplace_back("peak_strain", m.strain(test.peak()));
@@ -182,7 +187,7 @@ Opening largest_opening(const std::vector<Sample>& h, std::int64_t peak_step, co
 void compression_results(Record& r, const Settings& s, const StrengthTest& test, const Measure& m) {
   const auto& h = test.history();
   const double dt = s.setup.time_step;
-  const double strength = m.stress(test.peak());
+  const double strength = strength_of(test, m);
   r.results.emplace_back("ucs_MPa", 1e-6 * strength);
   r.results.emplace_back("ucs_error_percent", 100 * (strength / s.rock.compressive_strength - 1));
   r.results.emplace_back("peak_strain", m.strain(test.peak()));

@@ -203,3 +203,27 @@ TEST_CASE("small blocks fail as the paper says: tension by opening alone, compre
   CHECK(compression.stress(compression.peak()) > 150e6);
   CHECK(compression.stress(compression.peak()) < 252e6);
 }
+
+TEST_CASE("compressed along its rows a block splits between them and the rows go on carrying") {
+  const Block block = make_block(block_shape(4), 1e-3);
+  Setup setup = quartzite(block, PlaneKind::elastic);
+  setup.axis = 1;
+  Loading loading;
+  loading.kind = TestKind::compression;
+  loading.motion = 4e-8;
+  loading.largest_strain = 4 * 252e6 / 90e9;
+  StrengthTest test(block, setup, loading);
+  while (test.advance()) {
+  }
+  CHECK_FALSE(test.failed());
+  const auto state = test.solver().bond_state();
+  std::size_t rows = 0, rows_whole = 0, between = 0, between_broken = 0;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const bool in_row = block.bonds[i].direction == 0;
+    (in_row ? rows : between) += 1;
+    if (in_row && state[i] == 0) ++rows_whole;
+    if (!in_row && state[i] != 0) ++between_broken;
+  }
+  CHECK(rows_whole == rows);
+  CHECK(between_broken > between / 2);
+}
