@@ -30,7 +30,7 @@ Grid::Grid(const Block& block, int lanes, int threads, bool gravity) {
 
   rows.resize(size);
   length.resize(size);
-  bits_.assign(size * 2 * directions * static_cast<std::size_t>(chunks), 0);
+  bits_.assign(size * static_cast<std::size_t>(chunks), Bits{});
   // Rows above the last and a vector on each side are read, and masked, through the bonds that do not exist.
   motion_ = Buffer((size + static_cast<std::size_t>(shape.rows) + 2) * 6 * wide + 4 * line);
   shear_ = Buffer(size * 3 * directions * wide);
@@ -44,15 +44,13 @@ Grid::Grid(const Block& block, int lanes, int threads, bool gravity) {
     Row& row = rows[i];
     row.index = g;
     row.layer_kind = g / shape.rows & 1;
-    row.chunks = chunks;
     row.self = motion_.data() + 2 * line + i * 6 * wide;
     row.shear = shear_.data() + i * 3 * directions * wide;
     row.sum = sum_.data() + i * 3 * wide;
     row.viscous = scalars_.data() + i * 6 * wide;
     row.friction = row.viscous + wide;
     row.sample = row.viscous + 2 * wide;
-    row.intact = bits_.data() + i * 2 * directions * static_cast<std::size_t>(chunks);
-    row.broken = row.intact + directions * chunks;
+    row.bits = bits_.data() + i * static_cast<std::size_t>(chunks);
     row.weight = gravity ? weights_.data() + i * wide : nullptr;
     row.plane_stiffness = row.held = nullptr;
     row.plane_position = row.plane_force = nullptr;
@@ -139,16 +137,16 @@ double Grid::shear(std::size_t e, int k, int i) const {
 }
 
 int Grid::bond_bits(std::size_t e, int k) const {
-  const Row& row = rows[static_cast<std::size_t>(row_of[e])];
-  const int lanes = pitch / chunks, at = k * chunks + column_of[e] / lanes, lane = column_of[e] % lanes;
-  return (row.intact[at] >> lane & 1) + 2 * (row.broken[at] >> lane & 1);
+  const int lanes = pitch / chunks, lane = column_of[e] % lanes;
+  const Bits& bits = rows[static_cast<std::size_t>(row_of[e])].bits[column_of[e] / lanes];
+  return (bits.intact[k] >> lane & 1) + 2 * (bits.broken[k] >> lane & 1);
 }
 
 void Grid::set_bond(std::size_t e, int k, bool intact) {
-  const Row& row = rows[static_cast<std::size_t>(row_of[e])];
-  const int lanes = pitch / chunks, at = k * chunks + column_of[e] / lanes, bit = 1 << column_of[e] % lanes;
-  unsigned char& set = intact ? row.intact[at] : row.broken[at];
-  unsigned char& clear = intact ? row.broken[at] : row.intact[at];
+  const int lanes = pitch / chunks, bit = 1 << column_of[e] % lanes;
+  Bits& bits = rows[static_cast<std::size_t>(row_of[e])].bits[column_of[e] / lanes];
+  unsigned char& set = intact ? bits.intact[k] : bits.broken[k];
+  unsigned char& clear = intact ? bits.broken[k] : bits.intact[k];
   set = static_cast<unsigned char>(set | bit);
   clear = static_cast<unsigned char>(clear & ~bit);
 }
@@ -177,7 +175,7 @@ std::size_t Grid::bytes() const {
   return (motion_.size() + shear_.size() + force_.size() + sum_.size() +
           rows.size() * 2 * static_cast<std::size_t>(pitch)) *
              sizeof(double) +
-         bits_.size();
+         bits_.size() * sizeof(Bits);
 }
 
 }  // namespace dem::lattice

@@ -62,7 +62,7 @@ class Grid {
   void share_rows(int threads);
   void connect();
   Buffer motion_, shear_, force_, sum_, scalars_, planes_, weights_, zero_;
-  std::vector<unsigned char> bits_;
+  std::vector<Bits> bits_;
 };
 
 }  // namespace dem::lattice

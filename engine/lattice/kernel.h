@@ -15,16 +15,26 @@ namespace dem::lattice {
 
 inline constexpr int directions = 6;  // bonds owned by an element: +y, two to the next row, three to the layer above
 
+/// A number as often as the widest vector has lanes, so that it is an operand in memory.
+struct alignas(64) Wide {
+  double lane[8];
+};
+
 /// Everything that is the same for all bonds.
 struct Constants {
-  int pitch;                      // of motion and shear
-  int force_pitch;                // of forces: with a vector of zeros between components, for reads one column aside
-  double kn, ks, ks2;             // N/m, N/m, (N/m)^2
-  double xb, fs0, mu;             // m, N, 1; xb and fs0 are infinite for unbreakable bonds
-  double d, d2;                   // element diameter, m; its square
-  double bond[2][directions][3];  // reference vectors, by kind of layer (A, B)
-  double keep, push;              // w+ = keep w- + push F: (1-a)/(1+a), dt^2/(m (1+a)), a = eta dt / 2m
-  int axis;                       // of loading: 0, 1, 2
+  long pitch;                   // of motion and shear
+  long force_pitch;             // of forces: with a vector of zeros between components, for reads one column aside
+  Wide kn, ks, ks2, half_ks;    // N/m, N/m, (N/m)^2, N/m
+  Wide xb, fs0, mu;             // m, N, 1; xb and fs0 are infinite for unbreakable bonds
+  Wide d, d2;                   // element diameter, m; its square
+  Wide bond[2][directions][3];  // reference vectors, by kind of layer (A, B)
+  Wide keep, push;              // w+ = keep w- + push F: (1-a)/(1+a), dt^2/(m (1+a)), a = eta dt / 2m
+  int axis;                     // of loading: 0, 1, 2
+};
+
+/// The bonds of one vector of elements: a byte a direction, in it a bit a lane.
+struct Bits {
+  unsigned char intact[8], broken[8];  // the last two of each are zero
 };
 
 struct Event {
@@ -39,19 +49,17 @@ struct Event {
 struct Row {
   int index;
   int layer_kind;
-  int chunks;  // vectors in the row
   double* self;
   const double* other[directions];
   double* shear;                     // Xs of owned bonds, vector by vector of columns: 6 x 3 x lanes
   double* force;                     // 5 x 3 x force_pitch: force of owned bonds in directions 1..5
   const double* source[directions];  // 1..5: force of the bond that ends here
   double* sum;                       // 3 x pitch: own bonds and the one from the left
-  unsigned char* intact;             // 6 x chunks: a bit a lane
-  unsigned char* broken;
-  double* viscous;       // sum of |w- + w+|^2
-  double* friction;      // J
-  double* sample;        // 4 x pitch: elastic normal, shear (J); w-.w+, (w- + w+).w- (m^2)
-  const double* weight;  // N, or null without gravity
+  Bits* bits;                        // by vector of columns
+  double* viscous;                   // sum of |w- + w+|^2
+  double* friction;                  // J
+  double* sample;                    // 4 x pitch: elastic normal, shear (J); w-.w+, (w- + w+).w- (m^2)
+  const double* weight;              // N, or null without gravity
   // Only in rows with elements at a plane:
   const double* plane_stiffness;  // null in other rows
   double* plane_position;

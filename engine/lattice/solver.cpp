@@ -41,28 +41,32 @@ struct Plane {
   double plate_kinetic = 0, plate_half = 0, plate_viscous = 0;  // in the units of Row::sample and Row::viscous
 };
 
+Wide wide(double x) { return {{x, x, x, x, x, x, x, x}}; }
+
 Constants constants_of(const Setup& s, const Grid& grid) {
   constexpr double never = std::numeric_limits<double>::infinity();
   Constants c{};
   c.pitch = grid.pitch;
   c.force_pitch = grid.force_pitch;
-  c.kn = s.micro.kn;
-  c.ks = s.micro.ks;
-  c.ks2 = c.ks * c.ks;
-  c.xb = s.unbreakable ? never : s.micro.xb;
-  c.fs0 = s.unbreakable ? never : s.micro.fs0;
-  c.mu = s.micro.mu;
-  c.d = s.micro.diameter;
-  c.d2 = c.d * c.d;
+  const double kn = s.micro.kn, ks = s.micro.ks, d = s.micro.diameter;
+  c.kn = wide(kn);
+  c.ks = wide(ks);
+  c.ks2 = wide(ks * ks);
+  c.half_ks = wide(0.5 * ks);
+  c.xb = wide(s.unbreakable ? never : s.micro.xb);
+  c.fs0 = wide(s.unbreakable ? never : s.micro.fs0);
+  c.mu = wide(s.micro.mu);
+  c.d = wide(d);
+  c.d2 = wide(d * d);
   for (int kind = 0; kind < 2; ++kind) {
     for (int k = 0; k < directions; ++k) {
       const auto v = bond_vector(kind, k);
-      for (int i = 0; i < 3; ++i) c.bond[kind][k][i] = c.d * v[static_cast<std::size_t>(i)];
+      for (int i = 0; i < 3; ++i) c.bond[kind][k][i] = wide(d * v[static_cast<std::size_t>(i)]);
     }
   }
   const double a = s.viscosity * s.time_step / (2 * s.micro.mass);
-  c.keep = (1 - a) / (1 + a);
-  c.push = s.time_step * s.time_step / (s.micro.mass * (1 + a));
+  c.keep = wide((1 - a) / (1 + a));
+  c.push = wide(s.time_step * s.time_step / (s.micro.mass * (1 + a)));
   c.axis = s.axis;
   return c;
 }
@@ -190,7 +194,7 @@ struct Solver::Impl {
     double moved = drift;
     if (setup.planes == PlaneKind::plate) {
       const double before = plane.plate_step;
-      moved = constants.keep * before + constants.push / n * (carried + plane.force);
+      moved = constants.keep.lane[0] * before + constants.push.lane[0] / n * (carried + plane.force);
       plane.plate_viscous += n * (before + moved) * (before + moved);
       if (sample) {
         plane.plate_kinetic = n * before * moved;
