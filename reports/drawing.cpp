@@ -129,7 +129,7 @@ std::vector<Drawn> draw_all(const std::vector<Job>& jobs, const ReportOptions& o
 FigureContent content_of(const StudyResult& study, const Figure& figure, DrawnFigure& drawn) {
   try {
     FigureContent content = figure.make(study);
-    drawn.statement = content.statement;
+    if (of_published_rock(study)) drawn.statement = content.statement;
     drawn.finding = content.finding;
     return content;
   } catch (const std::out_of_range& missing) {

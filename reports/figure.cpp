@@ -9,4 +9,8 @@ const dem::Record* StudyResult::find(std::string_view id) const {
   return found == cases.end() ? nullptr : found->record;
 }
 
+bool of_published_rock(const StudyResult& study) {
+  return !study.scenario || study.scenario->model() != "grain_texture" || study.scenario->text("rock") == "Lac du Bonnet granite";
+}
+
 }  // namespace reports

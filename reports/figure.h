@@ -75,6 +75,10 @@ struct Figure {
   FigureContent (*make)(const StudyResult&);
 };
 
+/// Whether the study is of the rock that its model's paper is about (key `rock` of the grain texture model). For another
+/// rock nothing published stands beside its results.
+bool of_published_rock(const StudyResult& study);
+
 std::span<const Figure> figures();   ///< reports/figures/table.cpp
 
 }  // namespace reports

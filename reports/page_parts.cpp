@@ -67,6 +67,26 @@ std::vector<std::pair<std::string, std::vector<const CaseResult*>>> by_test(cons
   return groups;
 }
 
+/// Cases that differ in their seed alone: a column of the results.
+using Repeats = std::vector<const CaseResult*>;
+
+bool alike_but_for_seed(const dem::Record& a, const dem::Record& b) {
+  return std::ranges::equal(a.parameters, b.parameters,
+                            [](const auto& x, const auto& y) { return x == y || (x.first == "seed" && y.first == "seed"); });
+}
+
+std::vector<Repeats> columns_of(const std::vector<const CaseResult*>& group) {
+  std::vector<Repeats> columns;
+  for (const CaseResult* result : group) {
+    const auto same = std::ranges::find_if(columns, [&](const Repeats& c) {
+      return result->record && c.front()->record && alike_but_for_seed(*c.front()->record, *result->record);
+    });
+    if (same == columns.end()) columns.push_back({result});
+    else same->push_back(result);
+  }
+  return columns;
+}
+
 std::string shown_result(std::string_view name, double value) {
   if (!std::isfinite(value)) return "–";
   const bool whole = std::floor(value) == value && std::abs(value) < 1e15;
@@ -130,7 +150,7 @@ std::string deviation_text(const Comparison& row) {
 }
 
 std::string tolerance_text(const Comparison& row) {
-  if (!row.tolerance) return row.kind == "trend" ? "by sign" : "–";
+  if (!row.tolerance) return row.kind == "trend" ? (row.by_interval ? "by interval" : "by sign") : "–";
   if (row.relative) return "± " + shortest(100 * *row.tolerance) + " %";
   return "± " + shortest(*row.tolerance) + (row.unit.empty() ? "" : " " + difference_unit(row.unit));
 }
@@ -353,7 +373,10 @@ PageData title_data(const StudyResult& study, const ReportOptions& options) {
 
 PageData cases_data(const StudyResult& study) {
   PageData list = new_list();
-  for (const CaseResult& result : study.cases) {
+  std::vector<const CaseResult*> all;
+  for (const CaseResult& result : study.cases) all.push_back(&result);
+  for (const Repeats& repeats : columns_of(all)) {
+    const CaseResult& result = *repeats.front();
     PageData row;
     row.set("id", result.id);
     row.set("failed", !result.record);
@@ -361,8 +384,14 @@ PageData cases_data(const StudyResult& study) {
       const dem::Record& record = *result.record;
       std::vector<std::string> parameters;
       for (const auto& [name, value] : record.parameters) {
-        const std::string part = name == "test" || !varies(study, name) ? "" : parameter_words(name, value);
+        const bool said = name == "test" || !varies(study, name) || (name == "seed" && repeats.size() > 1);
+        const std::string part = said ? "" : parameter_words(name, value);
         if (!part.empty()) parameters.push_back(part);
+      }
+      if (repeats.size() > 1) {
+        std::vector<std::string> seeds;
+        for (const CaseResult* one : repeats) seeds.push_back(std::to_string(one->record->seed));
+        parameters.push_back("seeds " + listed(seeds));
       }
       row.set("test", test_of(record));
       row.set("parameters", joined(parameters, ", "));
@@ -446,32 +475,60 @@ PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
   return list;
 }
 
+namespace {
+
+// The value of one case, or mean and standard deviation of several.
+std::string result_text(const Repeats& column, const std::string& name) {
+  std::vector<double> values;
+  for (const CaseResult* result : column) {
+    if (result->record->has_result(name)) values.push_back(result->record->result(name));
+  }
+  std::erase_if(values, [](double v) { return !std::isfinite(v); });
+  if (values.empty()) return "–";
+  if (values.size() == 1) return shown_result(name, values.front());
+  const auto n = static_cast<double>(values.size());
+  double mean = 0, square = 0;
+  for (const double v : values) mean += v / n;
+  for (const double v : values) square += (v - mean) * (v - mean);
+  if (square == 0) return shown_result(name, values.front());
+  return shown_result(name, mean) + " ± " + shown_result(name, std::sqrt(square / (n - 1)));
+}
+
+}  // namespace
+
 PageData results_data(const StudyResult& study) {
   PageData tables = new_list();
   for (const auto& [test, group] : by_test(study)) {
-    std::vector<std::string> heads;
+    const std::vector<Repeats> columns = columns_of(group);
+    const bool repeated = columns.size() < group.size();
+    const std::size_t widest = repeated ? 4 : 8;  // columns that fit on a page
     std::vector<std::string> names;
     std::set<std::string> seen;
     for (const CaseResult* result : group) {
-      heads.push_back(case_label(study, *result));
       for (const auto& [name, value] : result->record->results) {
         if (!in_a_figure(name) && seen.insert(name).second) names.push_back(name);
       }
     }
-    PageData rows = new_list();
-    for (const std::string& name : names) {
-      const auto [words_of_name, unit] = result_name(name);
-      std::vector<std::string> values;
-      for (const CaseResult* result : group) {
-        values.push_back(result->record->has_result(name) ? shown_result(name, result->record->result(name)) : "–");
+    for (std::size_t from = 0; from < columns.size(); from += widest) {
+      const std::span<const Repeats> shown(columns.data() + from, std::min(widest, columns.size() - from));
+      std::vector<std::string> heads;
+      for (const Repeats& column : shown) {
+        heads.push_back(case_label(study, *column.front()) +
+                        (column.size() > 1 ? fmt::format(" ({} seeds)", column.size()) : ""));
       }
-      rows.push_back(table_row(unit.empty() ? words_of_name : words_of_name + " (" + unit + ")", values));
+      PageData rows = new_list();
+      for (const std::string& name : names) {
+        const auto [words_of_name, unit] = result_name(name);
+        std::vector<std::string> values;
+        for (const Repeats& column : shown) values.push_back(result_text(column, name));
+        rows.push_back(table_row(unit.empty() ? words_of_name : words_of_name + " (" + unit + ")", values));
+      }
+      PageData table;
+      table.set("test", capital(test.empty() ? "results" : words(test)));
+      table.set("heads", cells(heads));
+      table.set("rows", rows);
+      tables.push_back(table);
     }
-    PageData table;
-    table.set("test", capital(test.empty() ? "results" : test));
-    table.set("heads", cells(heads));
-    table.set("rows", rows);
-    tables.push_back(table);
   }
   return tables;
 }

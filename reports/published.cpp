@@ -161,6 +161,11 @@ void compare_value(const StudyResult& study, const Json& entry, Comparison& row)
   row.verdict = std::abs(*row.deviation) <= *row.tolerance ? Verdict::met : Verdict::missed;
 }
 
+double number_in_id(std::string text) {  // "1_5" is 1.5
+  std::ranges::replace(text, '_', '.');
+  return std::stod(text);
+}
+
 // The sign of the least-squares slope; detail lists the values, means of repeats, and tells how sure the slope is. Steps that
 // the scenario has no case for are left out, as long as two are left.
 void compare_trend(const StudyResult& study, const Json& entry, Comparison& row) {
@@ -176,7 +181,7 @@ void compare_trend(const StudyResult& study, const Json& entry, Comparison& row)
     const auto values = with_repeats(study, entry.at("of"), step);
     ours.push_back(mean(values));
     for (const double value : values) {
-      x.push_back(std::stod(step));
+      x.push_back(number_in_id(step));
       y.push_back(value);
     }
   }
@@ -196,6 +201,8 @@ void compare_trend(const StudyResult& study, const Json& entry, Comparison& row)
     row.detail += fmt::format("; slope {} (95 % interval {} to {}, p = {})", number(slope, 2), number(line->slope.low, 2),
                               number(line->slope.high, 2), number(line->p_value, 2));
   }
+  row.by_interval = x.size() > ours.size() && line->slope.has_interval();
+  if (row.by_interval && line->slope.low <= 0 && line->slope.high >= 0) row.computed = std::string("lost in scatter");
   row.verdict = *row.computed == row.published ? Verdict::met : Verdict::missed;
 }
 
@@ -275,7 +282,7 @@ Comparisons compare(const StudyResult& study, const std::filesystem::path& publi
   for (const auto& file : files) {
     try {
       const Json json = Json::parse(dem::read_file(file));
-      if (json.at("model").get<std::string>() != study.scenario->model()) continue;
+      if (json.at("model").get<std::string>() != study.scenario->model() || !of_published_rock(study)) continue;
       const std::size_t before = all.rows.size();
       for (const Json& entry : json.at("numbers")) compare_entry(study, entry, all.rows);
       if (all.rows.size() == before) continue;

@@ -9,7 +9,8 @@
 //      "greater": "of": TERM, "than": TERM: ours must be greater, as published
 // TERM: {"case": "compression_ar_1", "result": "ucs_MPa"}, {"quotient": [TERM, TERM]}, {"sum": [TERM, ...]},
 //       {"difference": [TERM, TERM]}, {"fit": "peak.m", "mineral": "quartz"} (reports/envelopes.h); "times": 100 scales any of them (a fraction to percent).
-// Where a scenario repeats its cases with other seeds, values are means, and trends are judged over all seeds.
+// Where a scenario repeats its cases with other seeds, values are means, and a trend must stand out of their scatter: the 95 %
+// interval of its slope must not hold zero. With one seed the sign of the slope decides.
 // "optional": true leaves the number out where the scenario has not the case.
 #include <filesystem>
 #include <optional>
@@ -34,6 +35,7 @@ struct Comparison {
   std::optional<Amount> computed;
   std::optional<double> deviation;   ///< relative, or absolute in `unit`; from the nearer end of a range
   std::optional<double> tolerance;
+  bool by_interval = false;          ///< a trend over several seeds: it must stand out of their scatter
   bool relative = false;             ///< deviation and tolerance are fractions of the published value
   Verdict verdict = Verdict::not_computed;
   std::string published_detail;      ///< the published values that make a trend: "206.8 → 201.3 → 198.4"

@@ -18,6 +18,8 @@ std::vector<Key> declare() {
     return Key{path, real, unit, low, high, {}, standard, help};
   };
   return {
+      Key{"rock", text, "", -inf, inf, {}, "\"\"",
+          "name of the rock; published numbers stand beside ours for the rock that they belong to"},
       number("specimen.diameter", "mm", 1, 1000, "", "diameter of the cylinder"),
       number("specimen.height", "mm", 1, 2000, "", "height of the cylinder, along the loading axis z"),
       number("packing.minimum_radius", "mm", 0.01, 100, "", "R_min of the sub-grain particles (Table 4)"),
@@ -77,7 +79,8 @@ std::vector<Key> declare() {
       number("measure.gauge", "", 0.1, 1, "0.6", "length of the strain gauge over the height"),
       number("measure.stiffness_departure", "", 0.001, 0.5, "0.02",
              "share by which the axial stiffness leaves its plateau at crack initiation"),
-      Key{"tests", texts, "", -inf, inf, {"compression", "direct_tension"}, "", "tests to run on each specimen"},
+      Key{"tests", texts, "", -inf, inf, {"compression", "direct_tension", "genesis"}, "",
+          "tests to run on each specimen; genesis makes it and does not load it"},
       Key{"repeats", KeyType::integer, "", 1, 1000, {}, "1",
           "specimens of each kind, with seed, seed + 1, ...: tells a trend from scatter"},
       Key{"sweep.aspect_ratio", reals, "", 1, 20, {}, "[]", "aspect ratios, one specimen each; empty: texture.aspect_ratio"},
@@ -165,7 +168,7 @@ Settings read_settings(const Scenario& s, TestKind test) {
   r.damping = s.real("solver.damping");
   r.time_step_factor = s.real("solver.time_step_factor");
   const bool compression = test == TestKind::compression;
-  const std::string group = compression ? "compression." : "direct_tension.";
+  const std::string group = test == TestKind::direct_tension ? "direct_tension." : "compression.";
   r.rate = s.real(group + "rate");
   r.ramp_strain = s.real(group + "ramp_strain");
   r.stop = s.real(group + "stop");

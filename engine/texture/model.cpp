@@ -67,7 +67,8 @@ CaseSpec make_case(const Scenario& base, const std::string& test, const Variant&
 }
 
 TestKind kind_of(const std::string& test) {
-  return test == "compression" ? TestKind::compression : TestKind::direct_tension;
+  return test == "compression" ? TestKind::compression
+                               : test == "genesis" ? TestKind::genesis : TestKind::direct_tension;
 }
 
 std::vector<double> swept(const Scenario& s, const std::string& sweep, const std::string& single) {
@@ -126,11 +127,9 @@ std::vector<CaseSpec> cases(const Scenario& scenario) {
     }
     for (const Variant& v : variants) {
       Variant tested = v;
-      if (test == "direct_tension") {  // has no confining pressure
-        tested.confining_pressure = 0;
-      }
+      if (test != "compression") tested.confining_pressure = 0;  // others have none
       CaseSpec made = make_case(scenario, test, tested);
-      if (test == "direct_tension" && std::ranges::find(list, made.id, &CaseSpec::id) != list.end()) continue;
+      if (test != "compression" && std::ranges::find(list, made.id, &CaseSpec::id) != list.end()) continue;
       list.push_back(std::move(made));
       (void)read_settings(list.back().scenario, kind_of(test));
     }
@@ -138,10 +137,8 @@ std::vector<CaseSpec> cases(const Scenario& scenario) {
   return list;
 }
 
-Record run(const CaseSpec& spec, RunContext& context) {
-  const TestKind kind = kind_of(std::get<std::string>(spec.parameters.front().second));
-  const Settings settings = read_settings(spec.scenario, kind);
-  const Specimen specimen = make_specimen(settings, context);
+// Runs the test to its end, from its checkpoint if there is one.
+LoadingTest load(const Specimen& specimen, const Settings& settings, const CaseSpec& spec, RunContext& context) {
   // Two threads pay from some thousand particles on: below, they mostly wait for each other.
   const int threads = std::clamp(static_cast<int>(specimen.packing.radius.size() / 2000), 1, std::max(1, context.threads));
   LoadingTest test(specimen, settings, threads);
@@ -152,7 +149,7 @@ Record run(const CaseSpec& spec, RunContext& context) {
   }
   using Clock = std::chrono::steady_clock;
   auto saved = Clock::now();
-  const bool compression = kind == TestKind::compression;
+  const bool compression = settings.test == TestKind::compression;
   while (!test.ended()) {
     const bool stop = context.stop != nullptr && *context.stop;
     const bool due = std::chrono::duration<double>(Clock::now() - saved).count() > context.checkpoint_seconds;
@@ -170,7 +167,15 @@ Record run(const CaseSpec& spec, RunContext& context) {
     context.report({compression ? "compression" : "direct tension", static_cast<std::int64_t>(row.step), test.fraction(),
                     row.platen_strain, row.axial_stress});
   }
-  Record record = make_record(specimen, settings, test);
+  return test;
+}
+
+Record run(const CaseSpec& spec, RunContext& context) {
+  const TestKind kind = kind_of(std::get<std::string>(spec.parameters.front().second));
+  const Settings settings = read_settings(spec.scenario, kind);
+  const Specimen specimen = make_specimen(settings, context);
+  Record record = kind == TestKind::genesis ? make_specimen_record(specimen, settings)
+                                            : make_record(specimen, settings, load(specimen, settings, spec, context));
   record.model = "grain_texture";
   record.scenario = spec.scenario.name();
   record.case_id = spec.id;

@@ -237,7 +237,35 @@ void add_specimen_results(Record& record, const Specimen& specimen, const Settin
   }
 }
 
+void add_specimen_tables(Record& record, const Specimen& specimen, const Settings& settings) {
+  record.tables.push_back(particle_table(specimen, settings));
+  record.tables.push_back(grain_table(specimen, settings));
+  record.tables.push_back(contact_table(specimen));
+}
+
 }  // namespace
+
+Record make_specimen_record(const Specimen& specimen, const Settings& settings) {
+  Record record;
+  const auto put = [&](const std::string& name, double value) { record.results.emplace_back(name, value); };
+  add_specimen_results(record, specimen, settings);
+  const auto& rounds = specimen.grains.growth_round;
+  const auto n = static_cast<double>(rounds.size());
+  put("gap_share", static_cast<double>(std::ranges::count_if(rounds, [](std::int32_t r) { return r > 0; })) / n);
+  put("growth_rounds", rounds.empty() ? 0.0 : static_cast<double>(std::ranges::max(rounds)));
+  put("floaters_removed", specimen.packing.floaters_removed);
+  put("particles", n);
+  put("contacts", static_cast<double>(specimen.bonds.size()));
+  put("grains", static_cast<double>(specimen.seeds.radius.size()));
+  constexpr double limit = 5e-3;
+  const double wanted = settings.packing.pressure;
+  const double departure = std::abs(specimen.packing.pressure / wanted - 1);
+  record.checks.push_back({"packing_pressure", departure, limit, departure <= limit,
+                           "Departure of the wall pressure of the packing at rest from the material pressure asked for, as a "
+                           "share of it."});
+  add_specimen_tables(record, specimen, settings);
+  return record;
+}
 
 Record make_record(const Specimen& specimen, const Settings& settings, const LoadingTest& test) {
   const bool compression = settings.test == TestKind::compression;
@@ -321,9 +349,7 @@ Record make_record(const Specimen& specimen, const Settings& settings, const Loa
                              "samples to the end of the test."});
   }
 
-  record.tables.push_back(particle_table(specimen, settings));
-  record.tables.push_back(grain_table(specimen, settings));
-  record.tables.push_back(contact_table(specimen));
+  add_specimen_tables(record, specimen, settings);
   record.tables.push_back(crack_table(specimen, test, h[end].step));
   record.tables.push_back(history_table(h));
   add_snapshots(record, test, c, compression, end);

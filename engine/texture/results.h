@@ -9,4 +9,7 @@ namespace dem::texture {
 /// energy_residual (<= 1) and equilibrium. Identity (case id, content, seed) is left to the caller.
 Record make_record(const Specimen& specimen, const Settings& settings, const LoadingTest& test);
 
+/// The record of a specimen that is not loaded: tables particles, grains, contacts; the check packing_pressure.
+Record make_specimen_record(const Specimen& specimen, const Settings& settings);
+
 }  // namespace dem::texture

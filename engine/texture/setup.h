@@ -9,7 +9,8 @@
 
 namespace dem::texture {
 
-enum class TestKind { compression, direct_tension };
+/// `genesis`: the specimen is made and not loaded.
+enum class TestKind { compression, direct_tension, genesis };
 
 /// Everything that a case of this model depends on. SI units.
 struct Settings {

@@ -28,6 +28,13 @@ FigureContent dip_strengths(const StudyResult& study);
 FigureContent dip_group_shares(const StudyResult& study);
 FigureContent mineral_properties(const StudyResult& study);
 FigureContent mineral_envelopes(const StudyResult& study);
+FigureContent genesis_steps(const StudyResult& study);
+FigureContent genesis_growth(const StudyResult& study);
+FigureContent genesis_contacts(const StudyResult& study);
+FigureContent ellipsoid_turns(const StudyResult& study);
+FigureContent test_setups(const StudyResult& study);
+FigureContent input_parameters(const StudyResult& study);
+FigureContent texture_by_seed(const StudyResult& study);
 
 }  // namespace reports::texture
 

@@ -125,7 +125,8 @@ render::Series points(const StrengthPoints& of, const std::string& label, const 
   return {.label = label, .x = of.sigma_3, .y = of.sigma_1, .colour = colour, .line = render::Line::none, .marker = marker, .y_error = {}};
 }
 
-render::Chart envelope_chart(const Envelopes& found, const std::vector<double>& tension) {
+// `beside`: with the published envelopes.
+render::Chart envelope_chart(const Envelopes& found, const std::vector<double>& tension, bool beside) {
   render::Chart chart;
   chart.x.title = "Confining pressure σ₃ (MPa)";
   chart.left.title = "Axial stress σ₁ (MPa)";
@@ -152,21 +153,23 @@ render::Chart envelope_chart(const Envelopes& found, const std::vector<double>& 
   if (found.damage_fit) line("", damage_colour, render::Line::solid, [&](double x) { return found.damage_fit->at(x); });
   if (found.initiation_fit) line("", initiation_colour, render::Line::solid, [&](double x) { return found.initiation_fit->at(x); });
   const auto published = [](const Published& p) { return [p](double x) { return hoek_brown(x, p.sigma_c, p.m, p.s); }; };
-  line("published fits", peak_colour, render::Line::dash, published(published_peak));
-  line("", damage_colour, render::Line::dash, published(published_damage));
-  line("", initiation_colour, render::Line::dash, [](double x) { return published_intercept + published_slope * x; });
-  line(martin.name, {0.4, 0.4, 0.4}, render::Line::dot, published(martin));
+  if (beside) {
+    line("published fits", peak_colour, render::Line::dash, published(published_peak));
+    line("", damage_colour, render::Line::dash, published(published_damage));
+    line("", initiation_colour, render::Line::dash, [](double x) { return published_intercept + published_slope * x; });
+    line(martin.name, {0.4, 0.4, 0.4}, render::Line::dot, published(martin));
+  }
   chart.legend = render::Chart::Legend::below;
   chart.width = 640;
   chart.height = 480;
   return chart;
 }
 
-TextTable envelope_table(const Envelopes& found) {
+TextTable envelope_table(const Envelopes& found, bool beside) {
   TextTable table{{"Envelope", "Parameter", "Published", "Ours (95 % interval)", "Points"}, {}};
   const auto row = [&](const char* envelope, const char* parameter, double value, std::string_view name, std::size_t n) {
     const auto estimate = found.find(name);
-    table.rows.push_back({envelope, parameter, shortest(value), estimate ? estimate_text(*estimate, 3, true) : "no fit",
+    table.rows.push_back({envelope, parameter, beside ? shortest(value) : "–", estimate ? estimate_text(*estimate, 3, true) : "no fit",
                           std::to_string(n)});
   };
   row("peak, s = 1", "σc (MPa)", published_peak.sigma_c, "peak.sigma_c", found.peak.sigma_1.size());
@@ -239,9 +242,9 @@ FigureContent confinement_envelopes(const StudyResult& study) {
   content.panels.push_back({.id = "", .caption = "Strengths against confining pressure with fitted envelopes; the tensile strength stands at −σ₃.",
                             .alt = "Peak stresses from " + number(std::ranges::min(found.peak.sigma_1), 3) + " to " +
                                    number(std::ranges::max(found.peak.sigma_1), 3) + " MPa. Fits: " + fits + ".",
-                            .content = envelope_chart(found, tension)});
+                            .content = envelope_chart(found, tension, of_published_rock(study))});
   content.panels.push_back({.id = "parameters", .caption = "Parameters of the envelopes, by least squares of σ₁.", .alt = "",
-                            .content = envelope_table(found), .per_row = 1});
+                            .content = envelope_table(found, of_published_rock(study)), .per_row = 1});
   content.finding = "Fitted: " + fits + ".";
   if (found.initiation_fit && found.peak_fit) {
     const double share = found.initiation_fit->intercept.value / found.peak_fit->sigma_c.value, slope = found.initiation_fit->slope.value;

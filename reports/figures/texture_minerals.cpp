@@ -38,7 +38,7 @@ Spread of_first(const std::vector<SeriesCase>& cases, const Measure& value) {
 }
 
 std::string beside(const Spread& ours, double theirs, int digits) {
-  if (ours.count == 0) return "– / " + shortest(theirs);
+  if (ours.count == 0) return std::isfinite(theirs) ? "– / " + shortest(theirs) : "–";
   return number(ours.mean, digits) + (ours.count > 1 ? " ± " + number(ours.deviation, 2) : "") +
          (std::isfinite(theirs) ? " / " + shortest(theirs) : "");
 }
@@ -61,7 +61,7 @@ FigureContent mineral_properties(const StudyResult& study) {
     const StudyResult part = of_mineral(study, mineral);
     const auto pressed = series_of(part, test_compression, confining_axis);
     const auto pulled = series_of(part, test_tension, confining_axis);
-    const auto known = std::ranges::find(published, mineral, &Published::mineral);
+    const auto known = of_published_rock(study) ? std::ranges::find(published, mineral, &Published::mineral) : published.end();
     const Published theirs = known != published.end() ? *known : Published{mineral, std::nan(""), std::nan(""), std::nan(""), std::nan("")};
     const Spread modulus = of_first(pressed, result("young_modulus_GPa")), ucs = of_first(pressed, result("ucs_MPa"));
     const Spread ts = of_first(pulled, result("tensile_strength_MPa"));
@@ -119,7 +119,7 @@ FigureContent mineral_envelopes(const StudyResult& study) {
       line(render::Line::solid, [&](double x) { return found.peak_fit->at(x); });
       said.push_back(fmt::format("{} σc {} MPa, m {}", mineral, estimate_text(found.peak_fit->sigma_c, 3), estimate_text(found.peak_fit->m, 3)));
     }
-    const auto known = std::ranges::find(published, mineral, &Published::mineral);
+    const auto known = of_published_rock(study) ? std::ranges::find(published, mineral, &Published::mineral) : published.end();
     if (known != published.end() && high > 0) line(render::Line::dot, [&](double x) { return hoek_brown(x, known->ucs, known->m, 1); });
   }
   if (chart.series.empty()) return content;

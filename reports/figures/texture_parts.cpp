@@ -24,16 +24,6 @@ render::Colour toned(const render::Colour& colour, double factor) {
   return {std::min(1.0, colour.red * factor), std::min(1.0, colour.green * factor), std::min(1.0, colour.blue * factor)};
 }
 
-std::array<render::Point, 2> frame_of(const Size& size) {
-  const double half = 0.5 * size.diameter;
-  return {{{-half, -half, size.z_low}, {half, half, size.z_low + size.height}}};
-}
-
-double mean_diameter(const dem::Record& record) {
-  const auto radius = record.table("particles").real("radius");
-  return radius.empty() ? 0 : 2 * std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(radius.size());
-}
-
 /// The cracks table, read once.
 struct Cracks {
   std::span<const double> position, normal, area;
@@ -83,6 +73,16 @@ std::array<std::size_t, 4> numbers_in_section(const dem::Record& record, std::si
 
 }  // namespace
 
+std::array<render::Point, 2> frame_of(const Size& size) {
+  const double half = 0.5 * size.diameter;
+  return {{{-half, -half, size.z_low}, {half, half, size.z_low + size.height}}};
+}
+
+double mean_diameter(const dem::Record& record) {
+  const auto radius = record.table("particles").real("radius");
+  return radius.empty() ? 0 : 2 * std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(radius.size());
+}
+
 const Axis confining_axis{"confining_pressure_MPa", "σ₃", " MPa", "sigma3", "Confining pressure σ₃ (MPa)", "the confining pressure",
                           "MPa of confining pressure"};
 
@@ -93,7 +93,8 @@ const Axis& swept_axis(const StudyResult& study) {
   const Axis* most = axes.data();
   std::size_t values = 0;
   for (const Axis& axis : axes) {
-    const std::size_t n = std::max(series_of(study, test_compression, axis).size(), series_of(study, test_tension, axis).size());
+    std::size_t n = 0;
+    for (const auto test : {test_compression, test_tension, test_genesis}) n = std::max(n, series_of(study, test, axis).size());
     if (n > values) most = &axis, values = n;
   }
   return *most;

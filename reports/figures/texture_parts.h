@@ -11,6 +11,7 @@ namespace reports::texture {
 
 inline constexpr std::string_view test_compression = "compression";
 inline constexpr std::string_view test_tension = "direct_tension";
+inline constexpr std::string_view test_genesis = "genesis";
 
 /// The parameter that the scenario sweeps: the one of aspect ratio, dip and confining pressure with most values.
 const Axis& swept_axis(const StudyResult& study);
@@ -38,6 +39,10 @@ struct Size {
   double z_low = 0;                 ///< where the specimen stands
 };
 Size size_of(const dem::Record& record);
+
+/// Bounds of the specimen, for cameras.
+std::array<render::Point, 2> frame_of(const Size& size);
+double mean_diameter(const dem::Record& record);  ///< of the particles, m
 
 /// Particles as spheres, a tone a grain so that grains of one mineral can be told apart.
 render::Spheres particles_by_mineral(const dem::Record& record);

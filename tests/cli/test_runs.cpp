@@ -166,3 +166,38 @@ TEST_CASE("output that cannot be written: exit code 3, the path is named") {
   CHECK(has(outcome.err, "dem-report: cannot make the folder out"));
   CHECK(dem::read_file(folder / "out") == "a file in the way");
 }
+
+TEST_CASE("a specimen can be made and reported without being loaded") {
+  const test::Scratch folder;
+  const test::Outcome made =
+      test::run_program(folder.path(), {DEM_SOURCE_DIR "/scenarios/ldb_texture.toml", "--scale", "smoke", "--case", "genesis_ar_1",
+                                        "--only", "genesis_contacts", "--format", "html"});
+  INFO(made.err);
+  REQUIRE(made.code == 0);
+  const fs::path output = folder.path() / "out" / "ldb_texture.smoke";
+  CHECK(has(dem::read_file(output / "summary.json"), "genesis_ar_1.packing_pressure"));
+  CHECK(fs::exists(output / "figures" / "genesis_contacts_laws.png"));
+  CHECK(has(dem::read_file(output / "report.html"), "Contacts by group and by law"));
+}
+
+TEST_CASE("published numbers stand beside the rock that they belong to only") {
+  const test::Scratch folder;
+  const Texts common = {"--scale", "smoke", "--case", "genesis_ar_1", "--only", "input_parameters", "--format", "html"};
+  Texts paper = {DEM_SOURCE_DIR "/scenarios/ldb_texture.toml"}, own = paper;
+  paper.insert(paper.end(), common.begin(), common.end());
+  own.insert(own.end(), common.begin(), common.end());
+  const test::Outcome granite = test::run_program(folder.path(), paper);
+  INFO(granite.err);
+  REQUIRE(granite.code == 0);
+  const fs::path report = folder.path() / "out" / "ldb_texture.smoke" / "report.html";
+  CHECK(has(dem::read_file(report), "Targets of the calibration (Table 2)"));
+  own.insert(own.end(), {"--set", "include=\"" DEM_SOURCE_DIR "/scenarios/rocks/my_rock.toml\""});
+  const test::Outcome mine = test::run_program(folder.path(), own);
+  INFO(mine.err);
+  REQUIRE(mine.code == 0);
+  const std::string text = dem::read_file(report);
+  CHECK_FALSE(has(text, "Targets of the calibration (Table 2)"));
+  CHECK(has(text, "feldspar"));
+  CHECK_FALSE(has(text, "<strong>Published.</strong>"));
+  CHECK(has(text, "No published numbers are known for this scenario."));
+}

@@ -10,6 +10,7 @@
 
 #include "engine/core/files.h"
 #include "engine/core/random.h"
+#include "engine/texture/keys.h"
 
 namespace synthetic {
 namespace {
@@ -393,8 +394,11 @@ dem::Record direct_tension(double aspect_ratio, const Options& options) {
 dem::Scenario scenario(const std::filesystem::path& folder, const std::string& name, const std::string& more) {
   const std::filesystem::path file = folder / (name + ".toml");
   dem::write_file(file, "model = \"grain_texture\"\ntitle = \"Grains of aspect ratio 1, 2 and 3 in Lac du Bonnet granite\"\n"
-                        "description = \"A made-up study for tests of the report.\"\nseed = 1\n" + more + "\n[scales.draft]\n");
-  return dem::Scenario::read(file.string(), "draft", {}, [](std::string_view) { return std::span<const dem::Key>(); });
+                        "description = \"A made-up study for tests of the report.\"\nseed = 1\n"
+                        "include = \"" DEM_SOURCE_DIR "/scenarios/rocks/lac_du_bonnet.toml\"\n"
+                        "tests = [\"compression\", \"direct_tension\"]\n" + more +
+                        "\n[specimen]\ndiameter = \"20 mm\"\nheight = \"40 mm\"\n[scales.draft]\n");
+  return dem::Scenario::read(file.string(), "draft", {}, [](std::string_view) { return dem::texture::keys(); });
 }
 
 Study::Study(const std::filesystem::path& folder, const Options& options) : scenario_(scenario(folder)) {
