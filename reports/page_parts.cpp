@@ -333,16 +333,18 @@ bool varies(const StudyResult& study, const std::string& name) {
 std::string case_label(const StudyResult& study, const CaseResult& result) {
   if (!result.record) return words(result.id);
   std::vector<std::string> parts;
+  std::string aspect_ratio;
   for (const auto& [name, value] : result.record->parameters) {
     if (name == "test") continue;
     const auto first = std::ranges::find_if(study.cases, [](const CaseResult& c) { return c.record != nullptr; });
     const auto base = std::ranges::find(first->record->parameters, name, [](const auto& p) { return p.first; });
     const bool usual = base != first->record->parameters.end() && base->second == value;
-    if (name == "aspect_ratio" || !usual) {
-      const std::string part = parameter_words(name, value);
-      if (!part.empty()) parts.push_back(part);
-    }
+    const std::string part = parameter_words(name, value);
+    if (name == "aspect_ratio") aspect_ratio = part;
+    const bool told = name == "aspect_ratio" ? varies(study, name) : name == "mineral" || !usual;
+    if (told && !part.empty()) parts.push_back(part);
   }
+  if (parts.empty() && !aspect_ratio.empty()) parts.push_back(aspect_ratio);
   return parts.empty() ? capital(words(result.id)) : joined(parts, ", ");
 }
 
@@ -587,7 +589,13 @@ PageData figures_data(const std::vector<DrawnFigure>& figures, const std::filesy
 PageData ledger_data(const StudyResult& study) {
   PageData list = new_list();
   for (const auto& [test, group] : by_test(study)) {
-    if (const auto table = ledger_table(study, group, test)) list.push_back(*table);
+    constexpr std::size_t widest = 7;  // columns that fit on a page
+    for (std::size_t from = 0; from < group.size(); from += widest) {
+      const auto to = std::min(group.size(), from + widest);
+      const std::vector<const CaseResult*> shown(group.begin() + static_cast<std::ptrdiff_t>(from),
+                                                 group.begin() + static_cast<std::ptrdiff_t>(to));
+      if (const auto table = ledger_table(study, shown, test)) list.push_back(*table);
+    }
   }
   return list;
 }

@@ -147,6 +147,40 @@ std::string weakest_boundary(const dem::Record& record, std::size_t count) {
                      names.at(static_cast<std::size_t>(most->first.second)));
 }
 
+// Cracks so far at each stage by the minerals at their ends, "tension / shear".
+TextTable cracks_by_minerals(const dem::Record& record) {
+  const dem::Table& cracks = record.table("cracks");
+  const auto a = cracks.integer("mineral_a"), b = cracks.integer("mineral_b");
+  const auto place = cracks.integer("place"), mode = cracks.integer("mode");
+  const auto names = minerals_of(record);
+  using Ends = std::array<std::int32_t, 3>;  // place, minerals in order
+  std::map<Ends, std::vector<std::array<std::size_t, 2>>> numbers;
+  TextTable table{{"Cracks so far, tension / shear"}, {}};
+  std::vector<std::size_t> until;
+  for (const Stage& stage : stages) {
+    const dem::Table* moment = snapshot(record, stage.moment);
+    if (!moment) continue;
+    table.head.emplace_back(stage.name);
+    until.push_back(std::min(cracks_so_far(*moment), cracks.rows()));
+  }
+  for (std::size_t k = 0; k < until.size(); ++k) {
+    for (std::size_t i = 0; i < until[k]; ++i) {
+      auto& counts = numbers[{place[i], std::min(a[i], b[i]), std::max(a[i], b[i])}];
+      counts.resize(until.size());
+      ++counts[k][mode[i] != 0];
+    }
+  }
+  for (const auto& [ends, counts] : numbers) {
+    const auto name = [&](std::size_t i) { return names.at(static_cast<std::size_t>(ends[i])); };
+    std::vector<std::string> row{ends[0] == 0 ? "within " + name(1) : "between " + name(1) + " and " + name(2)};
+    for (const auto& [tension, shear] : counts) {
+      row.push_back(count(static_cast<double>(tension)) + " / " + count(static_cast<double>(shear)));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
 std::string discs_note(double scale) {
   return (scale < 1 ? fmt::format(", drawn {:.1g} times as large as they are", scale) : std::string()) + ".";
 }
@@ -283,6 +317,8 @@ FigureContent crack_stages(const StudyResult& study) {
   }
   content.panels.insert(content.panels.end(), discs.begin(), discs.end());
   content.panels.insert(content.panels.end(), sections.begin(), sections.end());
+  content.panels.push_back({.id = "by_minerals", .caption = "The same by the minerals at their ends.", .alt = "",
+                            .content = cracks_by_minerals(*base.record), .per_row = 1});
   content.finding = "At " + base.label + ", cracks so far: " + listed(said) + ".";
   const dem::Table* first = snapshot(*base.record, "stable_growth");
   if (first) {
