@@ -50,12 +50,13 @@ std::vector<Level> levels_of(const dem::Record& record) {
   return levels;
 }
 
-render::Chart stress_and_volume(const dem::Record& record) {
+// `beside`: with the published levels.
+render::Chart stress_and_strains(const dem::Record& record, bool beside) {
   const dem::Table& history = record.table("history");
   render::Chart chart;
   chart.x.title = "Axial strain (%)";
   chart.left.title = "Axial stress (MPa)";
-  chart.right.title = "Volumetric strain (%)";
+  chart.right.title = "Volumetric, lateral strain (%)";
   render::Series stress = curve(history, {"axial_strain", "axial_stress", 100, 1e-6});
   stress.label = "axial stress";
   stress.colour = render::palette(0);
@@ -64,14 +65,24 @@ render::Chart stress_and_volume(const dem::Record& record) {
   volume.colour = render::palette(1);
   volume.line = render::Line::dash;
   volume.side = render::Side::right;
-  chart.series = {stress, volume};
+  render::Series lateral = curve(history, {"axial_strain", "lateral_strain", 100, 100});
+  lateral.label = "lateral strain (right)";
+  lateral.colour = render::palette(2);
+  lateral.line = render::Line::dash_dot;
+  lateral.side = render::Side::right;
+  chart.series = {stress, volume, lateral};
+  if (beside) {
+    for (const auto& [level, name] : {std::pair{71.1, "published σci"}, {164.0, "published σcd"}, {206.8, "published peak"}}) {
+      chart.marks.push_back({.kind = render::Mark::Kind::horizontal, .x = 0, .y = level, .label = name, .colour = {0.6, 0.6, 0.6}});
+    }
+  }
   for (const Level& one : levels_of(record)) {
     chart.marks.push_back({.kind = render::Mark::Kind::point, .x = one.strain, .y = one.stress, .label = one.symbol, .colour = {0, 0, 0}});
     chart.marks.push_back(moment(one.strain, ""));
   }
-  chart.legend = render::Chart::Legend::top_left;
+  chart.legend = render::Chart::Legend::below;
   chart.width = 640;
-  chart.height = 300;
+  chart.height = 360;
   return chart;
 }
 
@@ -360,9 +371,9 @@ FigureContent progressive_failure(const StudyResult& study) {
     said.push_back(fmt::format("{} {} MPa at {} % strain", one.symbol, number(one.stress, 4), number(one.strain, 3)));
   }
   const std::string found = said.empty() ? "no characteristic stress was found" : joined(said, ", ");
-  content.panels.push_back({.id = "stress", .caption = "Axial stress and volumetric strain (contraction positive).",
-                            .alt = "Stress and volumetric strain against axial strain: " + found + ".",
-                            .content = stress_and_volume(base)});
+  content.panels.push_back({.id = "stress", .caption = "Axial stress, volumetric and lateral strain (contraction positive), with our and the published levels.",
+                            .alt = "Stress, volumetric and lateral strain against axial strain: " + found + ".",
+                            .content = stress_and_strains(base, of_published_rock(study))});
   content.panels.push_back({.id = "stiffness", .caption = "Axial stiffness (Eq. 9) and cracks so far, by class.",
                             .alt = "Axial stiffness and numbers of cracks against axial strain; " +
                                    crack_words(crack_numbers(base, all_cracks)) + " at the end.",
