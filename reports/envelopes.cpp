@@ -35,9 +35,10 @@ std::optional<Estimate> Envelopes::find(std::string_view name) const {
     if (name == "damage.m") return damage_fit->m;
     if (name == "damage.s") return damage_fit->s;
   }
-  if (name.starts_with("initiation.") && initiation_fit) {
-    if (name == "initiation.intercept") return initiation_fit->intercept;
-    if (name == "initiation.slope") return initiation_fit->slope;
+  for (const Initiation& one : initiation) {
+    if (!one.fit || !name.starts_with("initiation." + std::string(one.id) + ".")) continue;
+    if (name.ends_with(".intercept")) return one.fit->intercept;
+    if (name.ends_with(".slope")) return one.fit->slope;
   }
   return std::nullopt;
 }
@@ -47,12 +48,17 @@ Envelopes envelopes_of(const StudyResult& study, std::string_view mineral) {
   Envelopes found;
   found.peak = points_of(cases, peak_of);
   found.damage = points_of(cases, result("crack_damage_MPa"));
-  found.initiation = points_of(cases, result("crack_initiation_MPa.axial_stiffness"));
   found.peak_fit = fit_peak_envelope(found.peak.sigma_3, found.peak.sigma_1);
   if (found.peak_fit) {
     found.damage_fit = fit_damage_envelope(found.damage.sigma_3, found.damage.sigma_1, found.peak_fit->sigma_c.value);
   }
-  found.initiation_fit = fit_line(found.initiation.sigma_3, found.initiation.sigma_1);
+  for (const auto& [id, name] : {std::pair{"axial_stiffness", "axial stiffness"}, {"strain_0_1_percent", "stress at 0.1 % strain"},
+                                 {"one_percent_of_cracks", "1 % of the cracks at the peak"},
+                                 {"crack_volumetric_strain", "crack volumetric strain"}}) {
+    Initiation one{id, name, points_of(cases, result("crack_initiation_MPa." + std::string(id))), {}};
+    one.fit = fit_line(one.points.sigma_3, one.points.sigma_1);
+    found.initiation.push_back(std::move(one));
+  }
   return found;
 }
 

@@ -12,12 +12,21 @@ struct StrengthPoints {
   std::vector<double> sigma_3, sigma_1;  ///< MPa, one point a case and seed
 };
 
+/// Crack initiation by one reading, and the line through it (MPa).
+struct Initiation {
+  std::string_view id;    ///< of the result: "crack_initiation_MPa.ID"
+  std::string_view name;  ///< "axial stiffness"
+  StrengthPoints points;
+  std::optional<LineFit> fit;
+};
+
 struct Envelopes {
-  StrengthPoints peak, damage, initiation;
+  StrengthPoints peak, damage;
   std::optional<EnvelopeFit> peak_fit;      ///< s = 1
   std::optional<EnvelopeFit> damage_fit;    ///< with sigma_c of the peak
-  std::optional<LineFit> initiation_fit;    ///< MPa; crack initiation by axial stiffness
-  /// A fitted value by name: "peak.sigma_c", "peak.m", "damage.m", "damage.s", "initiation.intercept", "initiation.slope".
+  std::vector<Initiation> initiation;       ///< axial_stiffness, strain_0_1_percent, one_percent_of_cracks, crack_volumetric_strain
+  /// A fitted value by name: "peak.sigma_c", "peak.m", "damage.m", "damage.s", "initiation.axial_stiffness.intercept",
+  /// "initiation.axial_stiffness.slope" and those of the other readings.
   [[nodiscard]] std::optional<Estimate> find(std::string_view name) const;
 };
 

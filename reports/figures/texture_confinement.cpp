@@ -16,7 +16,7 @@ namespace {
 
 constexpr int half_width = 440, curves_height = 380;
 
-const render::Colour peak_colour = render::palette(0), damage_colour = render::palette(1), initiation_colour = render::palette(2);
+const render::Colour peak_colour = render::palette(0), damage_colour = render::palette(1), initiation_colour = render::palette(2), strain_colour = render::palette(3);
 
 double peak_stress(const dem::Record& record) {
   return record.has_result("ucs_MPa") ? record.result("ucs_MPa") : result_or_nan(record, "confined_strength_MPa");
@@ -135,7 +135,10 @@ render::Chart envelope_chart(const Envelopes& found, const std::vector<double>& 
   for (const double x : found.peak.sigma_3) high = std::max(high, x);
   chart.series.push_back(points(found.peak, "peak", peak_colour, render::Marker::circle));
   chart.series.push_back(points(found.damage, "crack damage", damage_colour, render::Marker::square));
-  chart.series.push_back(points(found.initiation, "crack initiation", initiation_colour, render::Marker::triangle));
+  // The two readings that the paper's text gives: where the stiffness leaves its plateau, and its number, the stress at 0.1 %.
+  const Initiation &by_stiffness = found.initiation[0], &by_strain = found.initiation[1];
+  chart.series.push_back(points(by_stiffness.points, "σci by axial stiffness", initiation_colour, render::Marker::triangle));
+  chart.series.push_back(points(by_strain.points, "σci as stress at 0.1 % strain", strain_colour, render::Marker::cross));
   std::erase_if(chart.series, [](const render::Series& s) { return s.x.empty(); });
   if (!tension.empty()) {
     render::Series ts{.label = "direct tension", .x = {}, .y = {}, .colour = {0, 0, 0}, .line = render::Line::none,
@@ -151,12 +154,13 @@ render::Chart envelope_chart(const Envelopes& found, const std::vector<double>& 
   };
   if (found.peak_fit) line("our fits", peak_colour, render::Line::solid, [&](double x) { return found.peak_fit->at(x); });
   if (found.damage_fit) line("", damage_colour, render::Line::solid, [&](double x) { return found.damage_fit->at(x); });
-  if (found.initiation_fit) line("", initiation_colour, render::Line::solid, [&](double x) { return found.initiation_fit->at(x); });
+  if (by_stiffness.fit) line("", initiation_colour, render::Line::solid, [&](double x) { return by_stiffness.fit->at(x); });
+  if (by_strain.fit) line("", strain_colour, render::Line::solid, [&](double x) { return by_strain.fit->at(x); });
   const auto published = [](const Published& p) { return [p](double x) { return hoek_brown(x, p.sigma_c, p.m, p.s); }; };
   if (beside) {
     line("published fits", peak_colour, render::Line::dash, published(published_peak));
     line("", damage_colour, render::Line::dash, published(published_damage));
-    line("", initiation_colour, render::Line::dash, [](double x) { return published_intercept + published_slope * x; });
+    line("", strain_colour, render::Line::dash, [](double x) { return published_intercept + published_slope * x; });
     line(martin.name, {0.4, 0.4, 0.4}, render::Line::dot, published(martin));
   }
   chart.legend = render::Chart::Legend::below;
@@ -176,8 +180,11 @@ TextTable envelope_table(const Envelopes& found, bool beside) {
   row("", "m", published_peak.m, "peak.m", found.peak.sigma_1.size());
   row("crack damage, σc of the peak", "m", published_damage.m, "damage.m", found.damage.sigma_1.size());
   row("", "s", published_damage.s, "damage.s", found.damage.sigma_1.size());
-  row("crack initiation, a line", "at σ₃ = 0 (MPa)", published_intercept, "initiation.intercept", found.initiation.sigma_1.size());
-  row("", "slope", published_slope, "initiation.slope", found.initiation.sigma_1.size());
+  for (const Initiation& one : found.initiation) {
+    const std::string name = "crack initiation: " + std::string(one.name), id = "initiation." + std::string(one.id);
+    row(name.c_str(), "at σ₃ = 0 (MPa)", published_intercept, id + ".intercept", one.points.sigma_1.size());
+    row("", "slope", published_slope, id + ".slope", one.points.sigma_1.size());
+  }
   return table;
 }
 
@@ -234,9 +241,10 @@ FigureContent confinement_envelopes(const StudyResult& study) {
   if (found.damage_fit) {
     said.push_back("crack damage with m " + estimate_text(found.damage_fit->m, 3) + " and s " + estimate_text(found.damage_fit->s, 2));
   }
-  if (found.initiation_fit) {
-    said.push_back("crack initiation at " + estimate_text(found.initiation_fit->intercept, 3) + " MPa with a slope of " +
-                   estimate_text(found.initiation_fit->slope, 2));
+  for (const Initiation* one : {&found.initiation[0], &found.initiation[1]}) {
+    if (!one->fit) continue;
+    said.push_back(fmt::format("crack initiation ({}) at {} MPa with a slope of {}", one->name, estimate_text(one->fit->intercept, 3),
+                               estimate_text(one->fit->slope, 2)));
   }
   const std::string fits = said.empty() ? "too few pressures for a fit" : joined(said, "; ");
   content.panels.push_back({.id = "", .caption = "Strengths against confining pressure with fitted envelopes; the tensile strength stands at −σ₃.",
@@ -246,11 +254,15 @@ FigureContent confinement_envelopes(const StudyResult& study) {
   content.panels.push_back({.id = "parameters", .caption = "Parameters of the envelopes, by least squares of σ₁.", .alt = "",
                             .content = envelope_table(found, of_published_rock(study)), .per_row = 1});
   content.finding = "Fitted: " + fits + ".";
-  if (found.initiation_fit && found.peak_fit) {
-    const double share = found.initiation_fit->intercept.value / found.peak_fit->sigma_c.value, slope = found.initiation_fit->slope.value;
+  // Eq. 12: 0.3 to 0.5 of sigma_c, slope 1 to 1.5. Of the four readings only a stress at a set strain has a slope near 1 by itself:
+  // it is sigma_3 and the elastic stress of that strain.
+  const double ucs = found.peak.sigma_3.front() == 0 ? found.peak.sigma_1.front() : std::nan("");
+  for (const Initiation& one : found.initiation) {
+    if (!one.fit || !std::isfinite(ucs)) continue;
+    const double share = one.fit->intercept.value / ucs, slope = one.fit->slope.value;
     const bool inside = share >= 0.3 && share <= 0.5 && slope >= 1 && slope <= 1.5;
-    content.finding += fmt::format(" As in Eq. 13, initiation is {} σc {} {} σ₃: {} the range of Eq. 12.", number(share, 2),
-                                   slope < 0 ? "−" : "+", number(std::abs(slope), 2), inside ? "inside" : "outside");
+    content.finding += fmt::format(" By {}: {} UCS {} {} σ₃, {} the range of Eq. 12.", one.name, number(share, 2), slope < 0 ? "−" : "+",
+                                   number(std::abs(slope), 2), inside ? "inside" : "outside");
   }
   return content;
 }

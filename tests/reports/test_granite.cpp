@@ -71,7 +71,7 @@ TEST_CASE("envelopes are fitted through the cases of a study, each rock or miner
   CHECK(found.find("peak.m")->value == Approx(29).epsilon(1e-6));
   CHECK(found.find("peak.sigma_c")->value == Approx(206).epsilon(1e-6));
   CHECK(found.find("damage.s")->value == Approx(0.6).epsilon(1e-6));
-  CHECK(found.find("initiation.slope")->value == Approx(1.1));
+  CHECK(found.find("initiation.axial_stiffness.slope")->value == Approx(1.1));
   CHECK_FALSE(reports::envelopes_of(made.study(), "quartz").find("peak.m"));
   CHECK(reports::envelopes_of(made.study(), "quartz").peak.sigma_3.size() == 1);
 }
