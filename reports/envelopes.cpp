@@ -27,9 +27,10 @@ double peak_of(const dem::Record& record) {
 }  // namespace
 
 std::optional<Estimate> Envelopes::find(std::string_view name) const {
-  if (name.starts_with("peak.") && peak_fit) {
-    if (name == "peak.sigma_c") return peak_fit->sigma_c;
-    if (name == "peak.m") return peak_fit->m;
+  if (name == "peak.m" && peak_fit) return peak_fit->m;
+  if (name.starts_with("free.") && free_fit) {
+    if (name == "free.sigma_c") return free_fit->sigma_c;
+    if (name == "free.m") return free_fit->m;
   }
   if (name.starts_with("damage.") && damage_fit) {
     if (name == "damage.m") return damage_fit->m;
@@ -48,10 +49,16 @@ Envelopes envelopes_of(const StudyResult& study, std::string_view mineral) {
   Envelopes found;
   found.peak = points_of(cases, peak_of);
   found.damage = points_of(cases, result("crack_damage_MPa"));
-  found.peak_fit = fit_peak_envelope(found.peak.sigma_3, found.peak.sigma_1);
-  if (found.peak_fit) {
-    found.damage_fit = fit_damage_envelope(found.damage.sigma_3, found.damage.sigma_1, found.peak_fit->sigma_c.value);
+  double unconfined = 0, tests = 0;
+  for (std::size_t i = 0; i < found.peak.sigma_3.size(); ++i) {
+    if (found.peak.sigma_3[i] != 0) continue;
+    unconfined += found.peak.sigma_1[i];
+    tests += 1;
   }
+  found.ucs = tests > 0 ? unconfined / tests : std::nan("");
+  found.peak_fit = fit_peak_m(found.peak.sigma_3, found.peak.sigma_1, found.ucs);
+  found.free_fit = fit_peak_envelope(found.peak.sigma_3, found.peak.sigma_1);
+  found.damage_fit = fit_damage_envelope(found.damage.sigma_3, found.damage.sigma_1, found.ucs);
   for (const auto& [id, name] : {std::pair{"axial_stiffness", "axial stiffness"}, {"strain_0_1_percent", "stress at 0.1 % strain"},
                                  {"one_percent_of_cracks", "1 % of the cracks at the peak"},
                                  {"crack_volumetric_strain", "crack volumetric strain"}}) {

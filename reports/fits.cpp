@@ -192,6 +192,33 @@ std::optional<EnvelopeFit> fit_peak_envelope(std::span<const double> sigma_3, st
                      fixed_value(1), sigma_3.size()};
 }
 
+std::optional<EnvelopeFit> fit_peak_m(std::span<const double> sigma_3, std::span<const double> sigma_1, double sigma_c) {
+  if (sigma_3.size() < 2 || sigma_3.size() != sigma_1.size() || !two_places(sigma_3) || !(sigma_c > 0)) return std::nullopt;
+  for (std::size_t i = 0; i < sigma_3.size(); ++i) {
+    if (!std::isfinite(sigma_3[i]) || !std::isfinite(sigma_1[i])) return std::nullopt;
+  }
+  // Newton's method on the one slope, halving steps that leave the envelope's range or raise the sum of squares.
+  const double b = sigma_c * sigma_c;
+  double a = 10 * sigma_c;
+  Normal now = normal_of(sigma_3, sigma_1, a, b);
+  for (int step = 0; step < 200 && now.valid && now.aa > 0; ++step) {
+    double change = now.ra / now.aa;
+    Normal next = normal_of(sigma_3, sigma_1, a + change, b);
+    for (int half = 0; half < 60 && (!next.valid || next.squares > now.squares); ++half) {
+      change *= 0.5;
+      next = normal_of(sigma_3, sigma_1, a + change, b);
+    }
+    if (!next.valid || next.squares > now.squares) break;
+    a += change;
+    now = next;
+    if (std::abs(change) <= 1e-14 * std::abs(a)) break;
+  }
+  if (!now.valid || !(now.aa > 0)) return std::nullopt;
+  const double freedom = static_cast<double>(sigma_3.size()) - 1;
+  const double error = freedom > 0 ? std::sqrt(now.squares / freedom / now.aa) / sigma_c : 0;
+  return EnvelopeFit{fixed_value(sigma_c), with_error(a / sigma_c, error, freedom), fixed_value(1), sigma_3.size()};
+}
+
 std::optional<EnvelopeFit> fit_damage_envelope(std::span<const double> sigma_3, std::span<const double> sigma_1, double sigma_c) {
   const auto root = fit_root(sigma_3, sigma_1);
   if (!root || !(sigma_c > 0)) return std::nullopt;

@@ -34,6 +34,8 @@ double hoek_brown(double sigma_3, double sigma_c, double m, double s);
 
 /// sigma_c and m, with s = 1: intact rock. Nothing with fewer than two different sigma_3, or where no envelope fits.
 std::optional<EnvelopeFit> fit_peak_envelope(std::span<const double> sigma_3, std::span<const double> sigma_1);
+/// m alone, with s = 1 and sigma_c given: the uniaxial strength, as the text after Eq. 10 has it.
+std::optional<EnvelopeFit> fit_peak_m(std::span<const double> sigma_3, std::span<const double> sigma_1, double sigma_c);
 /// m and s, with sigma_c given: crack damage below the envelope of the peak.
 std::optional<EnvelopeFit> fit_damage_envelope(std::span<const double> sigma_3, std::span<const double> sigma_1, double sigma_c);
 

@@ -176,9 +176,10 @@ TextTable envelope_table(const Envelopes& found, bool beside) {
     table.rows.push_back({envelope, parameter, beside ? shortest(value) : "–", estimate ? estimate_text(*estimate, 3, true) : "no fit",
                           std::to_string(n)});
   };
-  row("peak, s = 1", "σc (MPa)", published_peak.sigma_c, "peak.sigma_c", found.peak.sigma_1.size());
-  row("", "m", published_peak.m, "peak.m", found.peak.sigma_1.size());
-  row("crack damage, σc of the peak", "m", published_damage.m, "damage.m", found.damage.sigma_1.size());
+  row("peak, σc = UCS, s = 1", "m", published_peak.m, "peak.m", found.peak.sigma_1.size());
+  row("peak, s = 1", "σc (MPa)", published_peak.sigma_c, "free.sigma_c", found.peak.sigma_1.size());
+  row("", "m", published_peak.m, "free.m", found.peak.sigma_1.size());
+  row("crack damage, σc = UCS", "m", published_damage.m, "damage.m", found.damage.sigma_1.size());
   row("", "s", published_damage.s, "damage.s", found.damage.sigma_1.size());
   for (const Initiation& one : found.initiation) {
     const std::string name = "crack initiation: " + std::string(one.name), id = "initiation." + std::string(one.id);
@@ -236,7 +237,7 @@ FigureContent confinement_envelopes(const StudyResult& study) {
   const auto tension = tensile_strengths(study);
   std::vector<std::string> said;
   if (found.peak_fit) {
-    said.push_back("peak with σc " + estimate_text(found.peak_fit->sigma_c, 3) + " MPa and m " + estimate_text(found.peak_fit->m, 3));
+    said.push_back("peak with σc = UCS, " + number(found.ucs, 4) + " MPa, and m " + estimate_text(found.peak_fit->m, 3));
   }
   if (found.damage_fit) {
     said.push_back("crack damage with m " + estimate_text(found.damage_fit->m, 3) + " and s " + estimate_text(found.damage_fit->s, 2));
@@ -256,7 +257,7 @@ FigureContent confinement_envelopes(const StudyResult& study) {
   content.finding = "Fitted: " + fits + ".";
   // Eq. 12: 0.3 to 0.5 of sigma_c, slope 1 to 1.5. Of the four readings only a stress at a set strain has a slope near 1 by itself:
   // it is sigma_3 and the elastic stress of that strain.
-  const double ucs = found.peak.sigma_3.front() == 0 ? found.peak.sigma_1.front() : std::nan("");
+  const double ucs = found.ucs;
   for (const Initiation& one : found.initiation) {
     if (!one.fit || !std::isfinite(ucs)) continue;
     const double share = one.fit->intercept.value / ucs, slope = one.fit->slope.value;

@@ -117,7 +117,7 @@ FigureContent mineral_envelopes(const StudyResult& study) {
     };
     if (found.peak_fit) {
       line(render::Line::solid, [&](double x) { return found.peak_fit->at(x); });
-      said.push_back(fmt::format("{} σc {} MPa, m {}", mineral, estimate_text(found.peak_fit->sigma_c, 3), estimate_text(found.peak_fit->m, 3)));
+      said.push_back(fmt::format("{} m {}", mineral, estimate_text(found.peak_fit->m, 3)));
     }
     const auto known = of_published_rock(study) ? std::ranges::find(published, mineral, &Published::mineral) : published.end();
     if (known != published.end() && high > 0) line(render::Line::dot, [&](double x) { return hoek_brown(x, known->ucs, known->m, 1); });
@@ -126,8 +126,8 @@ FigureContent mineral_envelopes(const StudyResult& study) {
   chart.legend = render::Chart::Legend::below;
   chart.width = 640;
   chart.height = 440;
-  const std::string fits = said.empty() ? "Too few pressures for a fit." : "Fitted: " + joined(said, "; ") + ".";
-  content.panels.push_back({.id = "", .caption = "Peak stresses of the minerals; solid: our fits with s = 1; dotted: envelopes with UCS and m of Table 3.",
+  const std::string fits = said.empty() ? "Too few pressures for a fit." : "Fitted with σc = UCS: " + joined(said, "; ") + ".";
+  content.panels.push_back({.id = "", .caption = "Peak stresses of the minerals; solid: our fits with σc = UCS and s = 1; dotted: envelopes with UCS and m of Table 3.",
                             .alt = fits, .content = chart});
   content.finding = fits;
   return content;

@@ -84,6 +84,31 @@ TEST_CASE("scattered points leave the envelope inside its interval, and no nearb
   }
 }
 
+TEST_CASE("m alone is found when sigma_c is known, and no nearby m is closer") {
+  const std::vector<double> sigma_3{0, 5, 10, 20, 40, 60}, scatter{3, -4, 2, 5, -6, 1};
+  std::vector<double> exact, sigma_1;
+  for (std::size_t i = 0; i < sigma_3.size(); ++i) {
+    exact.push_back(reports::hoek_brown(sigma_3[i], 206, 29, 1));
+    sigma_1.push_back(exact[i] + scatter[i]);
+  }
+  const auto known = reports::fit_peak_m(sigma_3, exact, 206);
+  REQUIRE(known);
+  CHECK(known->m.value == Approx(29).epsilon(1e-9));
+  CHECK(known->sigma_c.value == 206);
+  const auto fit = reports::fit_peak_m(sigma_3, sigma_1, 206);
+  REQUIRE(fit);
+  CHECK(fit->m.low < 29);
+  CHECK(fit->m.high > 29);
+  const auto squares = [&](double m) {
+    double sum = 0;
+    for (std::size_t i = 0; i < sigma_3.size(); ++i) sum += std::pow(sigma_1[i] - reports::hoek_brown(sigma_3[i], 206, m, 1), 2);
+    return sum;
+  };
+  for (const double step : {-0.05, 0.05}) CHECK(squares(fit->m.value + step) > squares(fit->m.value));
+  CHECK_FALSE(reports::fit_peak_m(sigma_3, sigma_1, std::nan("")));
+  CHECK_FALSE(reports::fit_peak_m(std::vector{10.0}, std::vector{200.0}, 206));
+}
+
 TEST_CASE("what cannot be fitted is not") {
   CHECK_FALSE(reports::fit_peak_envelope(std::vector{10.0, 10.0}, std::vector{200.0, 210.0}));
   CHECK_FALSE(reports::fit_peak_envelope(std::vector{0.0, 10.0}, std::vector{200.0, std::nan("")}));

@@ -69,7 +69,8 @@ TEST_CASE("envelopes are fitted through the cases of a study, each rock or miner
   made.add_confined(20, "quartz", 300);
   const auto found = reports::envelopes_of(made.study());
   CHECK(found.find("peak.m")->value == Approx(29).epsilon(1e-6));
-  CHECK(found.find("peak.sigma_c")->value == Approx(206).epsilon(1e-6));
+  CHECK(found.find("free.sigma_c")->value == Approx(206).epsilon(1e-6));
+  CHECK(found.find("free.m")->value == Approx(29).epsilon(1e-6));
   CHECK(found.find("damage.s")->value == Approx(0.6).epsilon(1e-6));
   CHECK(found.find("initiation.axial_stiffness.slope")->value == Approx(1.1));
   CHECK_FALSE(reports::envelopes_of(made.study(), "quartz").find("peak.m"));
