@@ -44,6 +44,7 @@ std::vector<Key> declare() {
       word("loading.direction", directions_, "\"z\"", "axis of loading; z is the normal of the layers"),
       word("loading.planes", planes, "\"elastic\"",
            "end elements on springs Kn to the plane, held in it, or one rigid plate on those springs"),
+      number("planes.stiffness", "", 0.1, 5, "1.0", "of the springs between planes and end elements, over Kn"),
       word("loading.moving", {"both", "one"}, "\"both\"", "planes that move"),
       whole("loading.settle", 1, 1000000, "100", "time steps in a loading step"),
       number("loading.factor", "", 1e-3, 1e3, "1.0", "on the motions below"),
@@ -73,6 +74,7 @@ std::vector<Key> declare() {
       word("extra[].planes", planes, "\"elastic\"", "its planes"),
       word("extra[].moving", {"both", "one"}, "\"both\"", "its moving planes"),
       word("extra[].direction", directions_, "\"z\"", "its direction of loading"),
+      number("extra[].stiffness", "", 0.1, 5, "1.0", "the stiffness of its planes, beside planes.stiffness"),
       number("extra[].factor", "", 1e-3, 1e3, "1.0", "on its motion in a loading step, beside loading.factor"),
       word("extra[].method", {"rest", "steps"}, "\"rest\"", "its elastic method"),
   };
@@ -157,6 +159,7 @@ Settings read_settings(const Scenario& s) {
     throw s.error("measure.section", "the share of an end element is known for loading along z only",
                   "write \"centres\" or \"outline\"");
   }
+  r.setup.plane_stiffness = s.real("planes.stiffness");
   r.loading.kind = r.test == "tension" ? TestKind::tension : TestKind::compression;
   r.loading.motion = s.real("loading.factor") * s.real("loading." + r.test + "_motion");
   r.loading.both = s.text("loading.moving") == "both";

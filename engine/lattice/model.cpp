@@ -18,8 +18,16 @@ struct Wanted {
   std::string test;
   std::int64_t elements_y = 12;
   std::string planes, moving, direction, method;
-  double factor = 1;  // on loading.factor
+  double factor = 1;     // on loading.factor
+  double stiffness = 1;  // on planes.stiffness
 };
+
+// 1.5 -> "1_5"
+std::string in_id(double value) {
+  std::string text = fmt::format("{:g}", value);
+  std::replace(text.begin(), text.end(), '.', '_');
+  return text;
+}
 
 CaseSpec spec_of(const Scenario& s, const Wanted& w, bool beside) {
   Scenario one = s.with("tests", std::vector<std::string>{w.test})
@@ -28,27 +36,27 @@ CaseSpec spec_of(const Scenario& s, const Wanted& w, bool beside) {
                      .with("loading.moving", w.moving)
                      .with("loading.direction", w.direction)
                      .with("loading.factor", w.factor * s.real("loading.factor"))
+                     .with("planes.stiffness", w.stiffness * s.real("planes.stiffness"))
                      .with("elastic.method", w.method);
   CaseSpec spec{fmt::format("{}_n_{}", w.test, w.elements_y), one, {}, {}};
   if (beside) {
     if (w.planes != "elastic") spec.id += "_" + w.planes;
+    if (w.stiffness != 1) spec.id += "_k" + in_id(w.stiffness);
     if (w.moving != "both") spec.id += "_one";
     if (w.direction != "z") spec.id += "_" + w.direction;
     if (w.method != "rest") spec.id += "_" + w.method;
-    if (w.factor != 1) {
-      std::string factor = fmt::format("{:g}", w.factor);
-      std::replace(factor.begin(), factor.end(), '.', '_');
-      spec.id += "_x" + factor;
-    }
+    if (w.factor != 1) spec.id += "_x" + in_id(w.factor);
   }
   (void)read_settings(one);  // bad values are found before anything runs
   std::vector<std::string> prefixes{"rock.", "correction.", "block.", "motion.", "loading.", "measure.", "tests"};
   if (w.test == "elastic") prefixes.emplace_back("elastic.");
+  if (one.real("planes.stiffness") != 1) prefixes.emplace_back("planes.");
   spec.content = fmt::format("{}\n{}", version, one.canonical(prefixes));
   spec.parameters = {{"test", w.test},           {"elements_y", static_cast<double>(w.elements_y)},
                      {"planes", w.planes},       {"moving", w.moving},
                      {"direction", w.direction}, {"factor", w.factor}};
   if (w.test == "elastic") spec.parameters.emplace_back("method", w.method);
+  if (w.stiffness != 1) spec.parameters.emplace_back("stiffness", w.stiffness);
   return spec;
 }
 
@@ -69,7 +77,7 @@ std::vector<CaseSpec> cases(const Scenario& s) {
   for (std::size_t i = 0; i < s.count("extra"); ++i) {
     const auto key = [i](const char* name) { return fmt::format("extra[{}].{}", i, name); };
     add({s.text(key("test")), s.integer(key("elements_y")), s.text(key("planes")), s.text(key("moving")),
-         s.text(key("direction")), s.text(key("method")), s.real(key("factor"))},
+         s.text(key("direction")), s.text(key("method")), s.real(key("factor")), s.real(key("stiffness"))},
         true);
   }
   if (all.empty())

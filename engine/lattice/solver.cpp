@@ -136,7 +136,7 @@ struct Solver::Impl {
       plane.elements = faces[at(s.axis)][at(side)];
       plane.outward = side == 1 ? 1 : -1;
       const bool held = s.planes != PlaneKind::elastic;
-      grid.bind_plane(plane.elements, held ? 0.0 : s.micro.kn, held);
+      grid.bind_plane(plane.elements, held ? 0.0 : s.plane_stiffness * s.micro.kn, held);
     }
     if (s.gravity != 0) grid.add_weight(s.micro.mass * s.gravity);
     for (const Share& share : grid.shares) {
@@ -181,7 +181,7 @@ struct Solver::Impl {
     double carried = 0;
     if (measure || setup.planes == PlaneKind::plate) carried = bond_force_sum(plane);
     if (setup.planes == PlaneKind::plate) {
-      plane.force = n * setup.micro.kn * (plane.position - plane.plate);
+      plane.force = n * plane_spring() * (plane.position - plane.plate);
     } else if (measure) {
       plane.force = setup.planes == PlaneKind::elastic ? carried : -carried;
     }
@@ -356,8 +356,10 @@ struct Solver::Impl {
     return s;
   }
 
+  double plane_spring() const { return setup.plane_stiffness * setup.micro.kn; }
+
   double plane_energy(const Plane& plane) const {
-    const double kn = setup.micro.kn;
+    const double kn = plane_spring();
     if (setup.planes == PlaneKind::rigid) return 0;
     if (setup.planes == PlaneKind::plate) {
       const double x = plane.position - plane.plate;

@@ -31,6 +31,7 @@ struct Setup {
   double gravity = 0;       ///< along -z, m/s^2
   int axis = 2;             ///< of loading
   PlaneKind planes = PlaneKind::elastic;
+  double plane_stiffness = 1;  ///< of the springs between planes and end elements, over Kn
   bool unbreakable = false;
   int threads = 1;
   std::string_view kernel;  ///< "sse2", "avx2", "avx512"; empty: the widest that the processor has

@@ -53,6 +53,8 @@ std::string choice_words(const dem::Record& record, const dem::Record& main) {
     if (theirs != main.parameters.end() && theirs->second == value) continue;
     if (name == "factor") {
       parts.push_back("loading steps × " + number(std::get<double>(value), 3));
+    } else if (name == "stiffness") {
+      parts.push_back("springs of the planes × " + number(std::get<double>(value), 3));
     } else if (name == "moving") {
       parts.emplace_back("one plane moves");
     } else if (name == "direction") {
