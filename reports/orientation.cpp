@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <numeric>
+
+#include "engine/core/random.h"
 
 namespace reports {
 namespace {
@@ -82,6 +85,26 @@ BandFit densest_band(std::span<const double> crack, std::span<const double> area
     }
   }
   return best;
+}
+
+double excess_at_random(std::span<const std::int32_t> contact, std::span<const double> area, std::span<const double> particle,
+                        std::span<const double> volume, double thickness, int draws) {
+  std::map<std::int32_t, double> broken;  // area, by contact
+  for (std::size_t i = 0; i < area.size(); ++i) broken[contact[i]] += area[i];
+  if (broken.empty() || volume.empty()) return none;
+  std::vector<double> areas;
+  for (const auto& [index, sum] : broken) areas.push_back(sum);
+  double largest = 0;
+  for (int draw = 0; draw < draws; ++draw) {
+    dem::RandomStream random(1, dem::Purpose::random_cracks, static_cast<std::uint32_t>(draw));
+    std::vector<double> place;
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+      const std::uint64_t at = random.below(volume.size());
+      for (std::uint64_t k = 0; k < 3; ++k) place.push_back(particle[3 * at + k]);
+    }
+    largest = std::max(largest, densest_band(place, areas, particle, volume, thickness).excess());
+  }
+  return largest;
 }
 
 }  // namespace reports

@@ -27,9 +27,15 @@ struct BandFit {
   double inclination = 0;        ///< degrees between the band and the loading axis
   double cracks = 0, volume = 0; ///< shares inside the band
   [[nodiscard]] double concentration() const { return cracks / volume; }
+  [[nodiscard]] double excess() const { return cracks - volume; }
 };
 /// Points are triples. Nothing to find (no weights): NaN.
 BandFit densest_band(std::span<const double> crack, std::span<const double> area, std::span<const double> particle,
                      std::span<const double> volume, double thickness);
+
+/// The largest excess of the densest band among `draws` placings of the cracks at random particles, those of one contact
+/// together: what any band must exceed to mean something.
+double excess_at_random(std::span<const std::int32_t> contact, std::span<const double> area, std::span<const double> particle,
+                        std::span<const double> volume, double thickness, int draws);
 
 }  // namespace reports

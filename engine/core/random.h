@@ -15,6 +15,7 @@ enum class Purpose : std::uint32_t {
   sheet_grain_centres = 20,
   sheet_grain_stiffness = 21,
   sheet_spring_thresholds = 22,
+  random_cracks = 40,
   test_data = 100,
 };
 

@@ -25,7 +25,14 @@ std::size_t first_after_peak(const dem::Record& record) {
   return strain.size() - first < 50 ? 0 : first;
 }
 
-BandFit band_of(const dem::Record& record) {
+/// The densest band of the cracks after the peak, and the largest excess that cracks at random have.
+struct Band {
+  BandFit fit;
+  double at_random = 0;
+};
+
+// `draws` 0: without the comparison.
+Band band_of(const dem::Record& record, int draws) {
   const dem::Table& cracks = record.table("cracks");
   const dem::Table& particles = record.table("particles");
   const Size size = size_of(record);
@@ -43,8 +50,11 @@ BandFit band_of(const dem::Record& record) {
     volume.push_back(r * r * r);
     mean += 2 * r / static_cast<double>(radius.size());
   }
-  return densest_band(centred(cracks.real("position"), first), cracks.real("area").subspan(first),
-                      centred(particles.real("position"), 0), volume, band_diameters * mean);
+  const auto places = centred(particles.real("position"), 0);
+  const auto area = cracks.real("area").subspan(first);
+  const double thickness = band_diameters * mean;
+  return {densest_band(centred(cracks.real("position"), first), area, places, volume, thickness),
+          draws > 0 ? excess_at_random(cracks.integer("contact").subspan(first), area, places, volume, thickness, draws) : 0};
 }
 
 render::Chart angle_chart(const std::vector<SeriesCase>& cases) {
@@ -92,21 +102,23 @@ FigureContent crack_orientation(const StudyResult& study) {
   const auto mean_angle = [](int mode) {
     return [mode](const dem::Record& r) { return orientation_of(r.table("cracks"), 0, mode).mean; };
   };
-  const auto inclination = [](const dem::Record& r) { return band_of(r).inclination; };
+  const auto inclination = [](const dem::Record& r) { return band_of(r, 0).fit.inclination; };
   const Axis& axis = swept_axis(study);
   TextTable table{{"Case", "Mean angle, all (°)", "Tension cracks (°)", "Shear cracks (°)", "Within 30° of the axis (%)",
-                   "Shear, of the crack area (%)", "Band’s angle to the axis (°)", "Crack density in the band over the mean"}, {}};
+                   "Shear, of the crack area (%)", "Band’s angle to the axis (°)", "Crack density in the band over the mean", "Cracks in the band beyond its volume (%)", "Largest of five random placings (%)"}, {}};
   const auto shown = [](double value, int digits) { return std::isfinite(value) ? number(value, digits) : std::string("none"); };
   render::Series angles{.label = "mean angle of cracks", .x = {}, .y = {}, .colour = render::palette(0), .marker = render::Marker::circle, .y_error = {}};
   render::Series bands{.label = "band with most cracks", .x = {}, .y = {}, .colour = render::palette(1), .line = render::Line::dash,
                        .marker = render::Marker::square, .y_error = {}};
-  std::vector<std::string> said;
+  std::vector<std::string> said, standing;
   for (const SeriesCase& item : cases) {
     const dem::Table& cracks = item.record->table("cracks");
     const Orientation all = orientation_of(cracks, 0), tension = orientation_of(cracks, 0, 0), shear = orientation_of(cracks, 0, 1);
-    const BandFit band = band_of(*item.record);
+    const auto [band, at_random] = band_of(*item.record, 5);
     table.rows.push_back({item.label, shown(all.mean, 3), shown(tension.mean, 3), shown(shear.mean, 3), shown(100 * all.along, 3),
-                          shown(100 * shear.area / all.area, 2), shown(band.inclination, 2), shown(band.concentration(), 2)});
+                          shown(100 * shear.area / all.area, 2), shown(band.inclination, 2), shown(band.concentration(), 2),
+                          shown(100 * band.excess(), 2), shown(100 * at_random, 2)});
+    if (band.excess() > at_random) standing.push_back(item.label);
     if (!(all.area > 0)) continue;
     angles.x.push_back(item.value);
     angles.y.push_back(all.mean);
@@ -133,6 +145,8 @@ FigureContent crack_orientation(const StudyResult& study) {
   content.panels.push_back({.id = "table", .caption = "Directions of cracks and the band with most of them. Directions at random have a mean of 32.7° and half of the area within 30°.", .alt = "",
                             .content = table, .per_row = 1});
   content.finding = "Mean angle of the cracks to the axis, and angle of the band with most cracks: " + joined(said, "; ") + ".";
+  content.finding += standing.empty() ? " No band holds more cracks than one of cracks placed at random does."
+                                      : " The band holds more cracks than one of cracks placed at random does at " + listed(standing) + ".";
   if (cases.size() > 2) {
     content.finding += " The mean angle " + trend_words(cases, mean_angle(-1), "°", axis) + "; the band’s " +
                        trend_words(cases, inclination, "°", axis) + ".";

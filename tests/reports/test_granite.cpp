@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "reports/envelopes.h"
 #include "reports/figures/table.h"
@@ -206,5 +207,10 @@ TEST_CASE("a band of cracks is found at its angle to the axis") {
     CHECK(std::abs(band.inclination - angle) <= 5);
     CHECK(band.cracks > 0.8);
     CHECK(band.concentration() > 2);
+    std::vector<std::int32_t> contact(area.size());
+    std::iota(contact.begin(), contact.end(), 0);
+    const double at_random = reports::excess_at_random(contact, area, particle, volume, 0.35, 3);
+    CHECK(at_random > 0);
+    CHECK(at_random < 0.2 * band.excess());
   }
 }
