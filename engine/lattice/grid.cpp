@@ -76,7 +76,9 @@ void Grid::share_rows(int threads) {
     const long until = filled * (t + 1) / used;
     while (g < count && (passed < until || t + 1 == used)) passed += length[static_cast<std::size_t>(g++)] > 0;
     share.last = g;
-    share.early = t + 1 == used ? share.last : std::max(share.first, share.last - (rows_per_layer + 1));
+    const int across = rows_per_layer + 1;  // rows that bonds reach; the ring of forces holds two more
+    share.early = t + 1 == used ? share.last : std::max(share.first, share.last - across);
+    share.lead = t > 0 && t + 1 == used ? std::min(share.last, share.first + across) : share.first;
     shares.push_back(share);
   }
 }

@@ -28,9 +28,10 @@ class Buffer {
 };
 
 /// The rows of one thread: [first, last). Those from `early` on are evaluated before any row of the step moves, because
-/// rows of the next thread need their forces, and they read motion of the next thread.
+/// rows of the next thread need their forces, and they read motion of the next thread. Meanwhile the last thread, which
+/// has no such rows, evaluates those before `lead`: otherwise it would wait.
 struct Share {
-  int first = 0, early = 0, last = 0;
+  int first = 0, lead = 0, early = 0, last = 0;
 };
 
 class Grid {

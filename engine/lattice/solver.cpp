@@ -238,14 +238,15 @@ struct Solver::Impl {
     for (int s = 0; s < job.steps; ++s) {
       const int before = mine.count;
       mine.step = step + s;
-      for (int g = share.early; g < share.last; ++g) {
-        if (grid.length[at(g)] > 0) kernel.forces(constants, grid.rows[at(g)], job.sample, mine);
+      for (int g = share.first; g < share.last; ++g) {
+        if (g == share.lead) g = share.early;
+        if (g < share.last && grid.length[at(g)] > 0) kernel.forces(constants, grid.rows[at(g)], job.sample, mine);
       }
       if (first) job.broke[(s + 2) & 3].store(false, std::memory_order_relaxed);
       barrier.wait();
       for (int g = share.first; g < share.last; ++g) {
         if (grid.length[at(g)] == 0) continue;
-        if (g < share.early) kernel.forces(constants, grid.rows[at(g)], job.sample, mine);
+        if (g >= share.lead && g < share.early) kernel.forces(constants, grid.rows[at(g)], job.sample, mine);
         kernel.advance(constants, grid.rows[at(g)], job.sample);
       }
       if (mine.count != before) job.broke[s & 3].store(true, std::memory_order_relaxed);
