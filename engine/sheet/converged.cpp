@@ -10,10 +10,12 @@
 namespace dem::sheet {
 namespace {
 
-constexpr int usual_solves = 2;      // of a relaxation with a good factor
-constexpr int refactor_after = 24;   // solves beyond the usual ones that are worth a new factor
-constexpr int most_changes = 300;    // rank beyond which corrections cost more than a new factor
-constexpr double peak_share = 0.02;  // of the largest unbalanced force: what patches are laid around
+constexpr int usual_solves = 2;  // of a relaxation with a good factor
+// A part of the factor is made anew when solves beyond the usual ones have cost what that is likely to cost.
+constexpr double least_worth = 1, operations_a_solve = 1e9;
+constexpr double slight_change = 0.001;  // of a spring's stiffness: such a tangent stays in the factor
+constexpr int most_changes = 300;        // rank beyond which corrections cost more than a new factor
+constexpr double peak_share = 0.02;      // of the largest unbalanced force: what patches are laid around
 constexpr std::size_t most_hot = 2000, most_patches = 6;
 constexpr double longest_step = 0.2;  // of a particle radius, in one step
 
@@ -25,52 +27,114 @@ struct ConvergedSolver::Impl {
   ModifiedFactor factor;
   bool factorised = false;
   SolverWork done;
-  ConvergedState kept;
-  // What the factor holds for each slot: whether it is in, and along which direction.
-  std::vector<std::uint8_t> held;
-  std::vector<double> nx, ny;
-  std::vector<int> watched;  // slots that are not joined
+  BlockMatrix matrix;                           // what the factor holds but for the changes
+  std::vector<ConvergedState::Change> changes;  // since the last factorisation
+  double extra_solves = 0;                      // counted towards the next one
+  bool load_moved = false;                      // since the last whole one
+  std::vector<std::uint8_t> held;               // of each slot: whether the factor has it, changes included
+  std::vector<std::uint8_t> stale;              // of each node of the tree
+  std::vector<int> watched;                     // slots that are not joined
+  double worth = 0;                             // solves that cost as much as the last factorisation
   Patches patches;
   std::vector<double> u;  // load, then displacement, in elimination order
 
   Impl(const Sheet& sheet, ConvergedSettings s)
-      : settings(s), dissection(sheet.lattice), factor(dissection, s.threads) {
+      : settings(s), dissection(sheet.lattice), factor(dissection, s.threads, Factor::Again::parts) {
     u.assign(2 * static_cast<std::size_t>(sheet.particles()), 0.0);
   }
 
-  void factorise(const Sheet& sheet, const Forces& forces) {
+  // The node that eliminates the first of a slot's particles: it holds the coupling, and what it changes reaches the
+  // other particle's node, further up.
+  int node_of(const Sheet& sheet, int slot) const {
+    const auto at = [&](int particle) { return dissection.position[static_cast<std::size_t>(particle)]; };
+    return dissection.node_of[static_cast<std::size_t>(std::min(at(sheet.first(slot)), at(sheet.second(slot))))];
+  }
+
+  // Makes the factor follow the tangent where that has changed by more than `slight` of a spring's stiffness.
+  // The tree above is factorised anew, the rest keeps what it held: a factor serves as a preconditioner only.
+  int follow_tangent(const Sheet& sheet, const Forces& forces, Tangent tangent, double slight) {
+    const auto slots = static_cast<std::size_t>(sheet.slots());
+    matrix.fixed = sheet.fixed;
+    matrix.coupling.resize(slots, {0, 0, 0});
+    matrix.diagonal.resize(sheet.x.size());
+    std::vector<Block> now(slots);
+    stale.assign(dissection.nodes.size(), factorised ? 0 : 1);
+#pragma omp parallel for schedule(static) num_threads(settings.threads)
+    for (int slot = 0; slot < sheet.slots(); ++slot) {
+      const auto k = static_cast<std::size_t>(slot);
+      if (sheet.stiffness[k] <= 0) continue;
+      const Block b = tangent_block(sheet, forces, slot, tangent);
+      now[k] = {-b[0], -b[1], -b[2]};
+    }
+    for (int slot = 0; slot < sheet.slots(); ++slot) {
+      const auto k = static_cast<std::size_t>(slot);
+      const Block& then = matrix.coupling[k];
+      const double most =
+          std::max({std::fabs(now[k][0] - then[0]), std::fabs(now[k][1] - then[1]), std::fabs(now[k][2] - then[2])});
+      if (most > slight * sheet.stiffness[k]) stale[static_cast<std::size_t>(node_of(sheet, slot))] = 1;
+    }
+    factor.factor().close(stale);
+    for (int slot = 0; slot < sheet.slots(); ++slot) {
+      const auto k = static_cast<std::size_t>(slot);
+      if (sheet.stiffness[k] > 0 && stale[static_cast<std::size_t>(node_of(sheet, slot))]) matrix.coupling[k] = now[k];
+    }
+    for (std::size_t at = 0; at < dissection.order.size(); ++at) {
+      if (!stale[static_cast<std::size_t>(dissection.node_of[at])]) continue;
+      const int particle = dissection.order[at];
+      matrix.diagonal[static_cast<std::size_t>(particle)] = diagonal_of(sheet, matrix, particle);
+    }
+    return factor.factorise(matrix, stale);
+  }
+
+  enum class Extent { part, whole };
+
+  void factorise(const Sheet& sheet, const Forces& forces, Extent extent) {
+    const double slight = extent == Extent::whole ? -1 : slight_change;
     // A tangent that has lost its stiffness somewhere (pivots would be raised over and over, and grow without bound)
     // gives way to the stable one: its steps still go down in energy, to the equilibrium beyond.
-    if (const int negative = factor.factorise(assemble(sheet, forces)); negative > 0) {
+    if (const int negative = follow_tangent(sheet, forces, Tangent::exact, slight); negative > 0) {
       done.negative_pivots += negative;
-      factor.factorise(assemble(sheet, forces, Tangent::stable));
+      follow_tangent(sheet, forces, Tangent::stable, -1);
     }
     ++done.factorisations;
-    const auto slots = static_cast<std::size_t>(sheet.slots());
-    held.assign(slots, 0);
-    nx.resize(slots);
-    ny.resize(slots);
+    worth = factor.factor().operations(stale) / operations_a_solve;
+    factorised = true;
+    hold(sheet);
+    changes.clear();
+    extra_solves = 0;
+    if (extent == Extent::whole) load_moved = false;
+  }
+
+  void hold(const Sheet& sheet) {
+    held.assign(static_cast<std::size_t>(sheet.slots()), 0);
     watched.clear();
     for (int slot = 0; slot < sheet.slots(); ++slot) {
       const auto k = static_cast<std::size_t>(slot);
       if (sheet.stiffness[k] <= 0) continue;
-      const auto i = static_cast<std::size_t>(sheet.first(slot)), j = static_cast<std::size_t>(sheet.second(slot));
-      nx[k] = (sheet.x[j] - sheet.x[i]) / forces.length[k];
-      ny[k] = (sheet.y[j] - sheet.y[i]) / forces.length[k];
-      held[k] = active(sheet, forces, slot) ? 1 : 0;
+      held[k] = matrix.coupling[k] == Block{0, 0, 0} ? 0 : 1;
       if (!sheet.joined[k]) watched.push_back(slot);
     }
-    kept = {sheet.x, sheet.y, sheet.radius, sheet.joined, {}, 0, false};
-    factorised = true;
   }
 
   void change(const Sheet& sheet, ConvergedState::Change c) {
-    const auto k = static_cast<std::size_t>(c.slot);
-    held[k] = c.active ? 1 : 0;
-    if (c.active) nx[k] = c.nx, ny[k] = c.ny;
+    held[static_cast<std::size_t>(c.slot)] = c.active ? 1 : 0;
     c.coefficient = factor.change(c.coefficient, sheet.first(c.slot), sheet.second(c.slot), {c.nx, c.ny}, sheet.fixed);
-    kept.changes.push_back(c);
+    changes.push_back(c);
     ++done.changes;
+  }
+
+  // The direction along which the factor holds a slot.
+  std::array<double, 2> direction(int slot) const {
+    for (auto c = changes.rbegin(); c != changes.rend(); ++c) {
+      if (c->slot == slot && c->active) return {c->nx, c->ny};
+    }
+    const Block& b = matrix.coupling[static_cast<std::size_t>(slot)];  // -(along n n^T + g), along > 0
+    const double difference = b[2] - b[0], twice = -2 * b[1];
+    const double along = std::sqrt(difference * difference + twice * twice);
+    if (along <= 0) return {1, 0};
+    const double x = std::sqrt(std::max(0.0, 0.5 * (1 + difference / along)));
+    const double y = std::sqrt(std::max(0.0, 0.5 * (1 - difference / along)));
+    return {x, twice < 0 ? -y : y};
   }
 
   // Brings the factor up to date with springs that broke and contacts that opened or closed.
@@ -80,7 +144,8 @@ struct ConvergedSolver::Impl {
       const bool on = active(sheet, forces, slot);
       if (on == (held[k] != 0)) continue;
       if (!on) {
-        change(sheet, {-sheet.stiffness[k], slot, nx[k], ny[k], false});
+        const auto [nx, ny] = direction(slot);
+        change(sheet, {-sheet.stiffness[k], slot, nx, ny, false});
         continue;
       }
       const auto i = static_cast<std::size_t>(sheet.first(slot)), j = static_cast<std::size_t>(sheet.second(slot));
@@ -295,8 +360,8 @@ struct ConvergedSolver::Impl {
     int slow = 0, patched = 0;
     bool fresh = false;
     // The load moved, and every direction turned a little: the breaks that follow are worth a new factor.
-    if (!factorised || (!near.empty() && kept.load_moved)) factorise(sheet, forces), fresh = true;
-    if (near.empty()) kept.load_moved = true;
+    if (!factorised || (!near.empty() && load_moved)) factorise(sheet, forces, Extent::whole), fresh = true;
+    if (near.empty()) load_moved = true;
     Imbalance now = look(sheet, forces);
     const auto balanced = [&] { return now.most <= settings.tolerance * now.largest_spring; };
     while (!balanced() && result.iterations < settings.most_solves) {
@@ -313,8 +378,8 @@ struct ConvergedSolver::Impl {
         forces.unbalanced = now.most;
         continue;
       }
-      if (settings.refactor_always || factor.changes() > most_changes || kept.extra_solves > refactor_after) {
-        factorise(sheet, forces);
+      if (settings.refactor_always || factor.changes() > most_changes || extra_solves > std::max(least_worth, worth)) {
+        factorise(sheet, forces, settings.refactor_always ? Extent::whole : Extent::part);
         fresh = true;
       } else {
         follow(sheet, forces);
@@ -323,12 +388,11 @@ struct ConvergedSolver::Impl {
       now = look(sheet, forces);
       result.iterations += solves;
       if (now.most > 0.3 * before) ++slow;
-      if (!fresh) kept.extra_solves += solves;
+      if (!fresh) extra_solves += solves;
       // A relaxation that goes on and on needs a factor of its own.
-      if (result.iterations % 40 < solves && result.iterations >= 40) kept.extra_solves = refactor_after + 1;
+      if (result.iterations % 40 < solves && result.iterations >= 40) extra_solves = 2 * most_changes;
     }
-    if (!fresh)
-      kept.extra_solves = std::max<std::int64_t>(0, kept.extra_solves - std::min(usual_solves, result.iterations));
+    if (!fresh) extra_solves = std::max(0.0, extra_solves - std::min(usual_solves, result.iterations));
     result.reached = balanced();
     result.unbalanced = now.largest_spring > 0 ? now.most / now.largest_spring : 0;
     return result;
@@ -342,25 +406,29 @@ Relaxation ConvergedSolver::relax(Sheet& sheet, Forces& forces, std::span<const 
   return impl_->relax(sheet, forces, near);
 }
 SolverWork ConvergedSolver::work() const { return impl_->done; }
-ConvergedState ConvergedSolver::state() const { return impl_->kept; }
+ConvergedState ConvergedSolver::state() const {
+  const Impl& i = *impl_;
+  return {i.matrix.coupling, i.changes, i.extra_solves, i.worth, i.load_moved};
+}
 
 void ConvergedSolver::restore(const Sheet& sheet, const ConvergedState& state) {
-  Sheet then = sheet;
-  then.x = state.x;
-  then.y = state.y;
-  then.radius = state.radius;
-  then.joined = state.joined;
-  Forces forces;
-  compute_forces(then, forces, impl_->settings.threads);
-  impl_->factorise(then, forces);
-  for (const auto& change : state.changes) impl_->change(then, change);
-  impl_->kept.extra_solves = state.extra_solves;
-  impl_->kept.load_moved = state.load_moved;
-  impl_->watched.clear();
-  for (int slot = 0; slot < sheet.slots(); ++slot) {
-    const auto k = static_cast<std::size_t>(slot);
-    if (sheet.stiffness[k] > 0 && !sheet.joined[k]) impl_->watched.push_back(slot);
+  Impl& i = *impl_;
+  if (state.coupling.empty()) return;
+  i.matrix.fixed = sheet.fixed;
+  i.matrix.coupling = state.coupling;
+  i.matrix.diagonal.resize(sheet.x.size());
+  for (int p = 0; p < sheet.particles(); ++p) {
+    i.matrix.diagonal[static_cast<std::size_t>(p)] = diagonal_of(sheet, i.matrix, p);
   }
+  i.done.negative_pivots += i.factor.factorise(i.matrix);
+  ++i.done.factorisations;
+  i.factorised = true;
+  i.changes.clear();
+  i.hold(sheet);
+  for (const auto& change : state.changes) i.change(sheet, change);
+  i.extra_solves = state.extra_solves;
+  i.worth = state.worth;
+  i.load_moved = state.load_moved;
 }
 
 }  // namespace dem::sheet

@@ -6,6 +6,7 @@ namespace dem::sheet {
 namespace {
 
 constexpr int task_particles = 2000;  // subtrees smaller than this are one task
+constexpr int small_particles = 100;  // subtrees smaller than this are factorised as one
 
 }  // namespace
 
@@ -44,18 +45,15 @@ Dissection::Dissection(const Lattice& sheet, int leaf_particles) : lattice(sheet
   position.assign(n, -1);
   node_of.reserve(n);
   divide(0, lattice.columns, 0, lattice.rows, leaf_particles);
-  std::size_t panel = 0, update = 0;
-  for (const Node& node : nodes) {
-    panel_offset.push_back(panel);
-    update_offset.push_back(update);
-    // Odd multiples of eight rows: columns start on different cache sets.
-    const int rows = (2 * node.front() + 7) / 8;
-    leading.push_back(8 * (rows | 1));
-    panel += static_cast<std::size_t>(leading.back()) * static_cast<std::size_t>(2 * node.own());
-    update += 2 * node.boundary.size();
+  panel_offset.resize(nodes.size());
+  for (std::size_t k = nodes.size(); k-- > 0;) {
+    panel_offset[k] = panel_size;
+    panel_size += Panel<float>::size(2 * nodes[k].own(), 2 * nodes[k].front());
   }
-  panel_offset.push_back(panel);
-  update_offset.push_back(update);
+  for (const Node& node : nodes) {
+    update_offset.push_back(update_size);
+    update_size += 2 * node.boundary.size();
+  }
 }
 
 int Dissection::divide(int c0, int c1, int r0, int r1, int leaf) {
@@ -159,31 +157,39 @@ void Dissection::connect(int index, int c0, int c1, int r0, int r1) {
   }
 }
 
-Factor::Factor(const Dissection& dissection, int threads)
+Factor::Factor(const Dissection& dissection, int threads, Again again)
     : dissection_(&dissection),
       threads_(threads),
-      panels_(dissection.panel_offset.back()),
+      again_(again),
+      panels_(dissection.panel_size),
+      schur_(dissection.nodes.size()),
       inverse_(2 * dissection.order.size()),
-      updates_(dissection.update_offset.back()) {}
+      updates_(dissection.update_size) {}
 
-void Factor::eliminate(int index, const BlockMatrix& matrix, PivotRule rule, std::vector<std::vector<double>>& updates,
-                       std::vector<int>& raised) {
+int Factor::subtree(int index) const {
+  const auto& node = dissection_->nodes[static_cast<std::size_t>(index)];
+  return node.end - dissection_->nodes[static_cast<std::size_t>(node.first)].begin;
+}
+
+bool Factor::small(int index) const { return subtree(index) <= small_particles; }
+
+Panel<const float> Factor::panel(int index) const {
+  const auto& node = dissection_->nodes[static_cast<std::size_t>(index)];
+  return {panels_.data() + dissection_->panel_offset[static_cast<std::size_t>(index)], 2 * node.own(),
+          2 * node.front()};
+}
+
+void Factor::eliminate(int index, Job& job) {
   const Dissection& d = *dissection_;
   const auto& node = d.nodes[static_cast<std::size_t>(index)];
-  if (node.child[0] >= 0) {
-    const bool task = node.end - d.nodes[static_cast<std::size_t>(node.first)].begin > task_particles;
-#pragma omp task if (task) default(shared)
-    eliminate(node.child[0], matrix, rule, updates, raised);
-    eliminate(node.child[1], matrix, rule, updates, raised);
-#pragma omp taskwait
-  }
-  const int ns = 2 * node.own(), nf = 2 * node.front();
-  const auto ld = static_cast<std::size_t>(d.leading[static_cast<std::size_t>(index)]);
-  std::vector<double> front(ld * static_cast<std::size_t>(nf), 0.0);
-  const auto at = [&](int row, int column) -> double& {
-    return front[static_cast<std::size_t>(column) * ld + static_cast<std::size_t>(row)];
-  };
-  std::vector<double> diagonal(static_cast<std::size_t>(ns));
+  const BlockMatrix& matrix = job.matrix;
+  const int ns = 2 * node.own();
+  const Panel<float> panel{panels_.data() + d.panel_offset[static_cast<std::size_t>(index)], ns, 2 * node.front()};
+  std::fill_n(panel.data, Panel<float>::size(panel.ns, panel.nf), 0.0F);
+  auto& schur = schur_[static_cast<std::size_t>(index)];
+  schur.assign(Packed<float>::size(2 * node.rest()), 0.0F);
+  const Packed<float> rest{schur.data(), 2 * node.rest()};
+  std::vector<float> diagonal(static_cast<std::size_t>(ns));
   const auto fixed = [&](int row) {
     const int position =
         row < node.own() ? node.begin + row : node.boundary[static_cast<std::size_t>(row - node.own())];
@@ -193,60 +199,107 @@ void Factor::eliminate(int index, const BlockMatrix& matrix, PivotRule rule, std
     const auto particle = static_cast<std::size_t>(d.order[static_cast<std::size_t>(node.begin + p)]);
     const Block& b = matrix.diagonal[particle];
     const std::uint8_t held = matrix.fixed[particle];
-    at(2 * p, 2 * p) = (held & 1) ? 1.0 : b[0];
-    at(2 * p + 1, 2 * p + 1) = (held & 2) ? 1.0 : b[2];
-    at(2 * p + 1, 2 * p) = held ? 0.0 : b[1];
-    diagonal[static_cast<std::size_t>(2 * p)] = at(2 * p, 2 * p);
-    diagonal[static_cast<std::size_t>(2 * p + 1)] = at(2 * p + 1, 2 * p + 1);
+    float* x = panel.column(2 * p) + 2 * p;
+    float* y = panel.column(2 * p + 1) + 2 * p + 1;
+    x[0] = (held & 1) ? 1.0F : static_cast<float>(b[0]);
+    x[1] = held ? 0.0F : static_cast<float>(b[1]);
+    y[0] = (held & 2) ? 1.0F : static_cast<float>(b[2]);
+    diagonal[static_cast<std::size_t>(2 * p)] = x[0];
+    diagonal[static_cast<std::size_t>(2 * p + 1)] = y[0];
   }
   for (const auto& e : node.entries) {
     const Block& b = matrix.coupling[static_cast<std::size_t>(e.coupling)];
     const std::uint8_t hr = fixed(e.row), hc = fixed(e.column);
     const double rx = (hr & 1) ? 0 : 1, ry = (hr & 2) ? 0 : 1, cx = (hc & 1) ? 0 : 1, cy = (hc & 2) ? 0 : 1;
-    at(2 * e.row, 2 * e.column) = rx * cx * b[0];
-    at(2 * e.row, 2 * e.column + 1) = rx * cy * b[1];
-    at(2 * e.row + 1, 2 * e.column) = ry * cx * b[1];
-    at(2 * e.row + 1, 2 * e.column + 1) = ry * cy * b[2];
+    float* x = panel.column(2 * e.column) + 2 * e.row;
+    float* y = panel.column(2 * e.column + 1) + 2 * e.row;
+    x[0] = static_cast<float>(rx * cx * b[0]);
+    y[0] = static_cast<float>(rx * cy * b[1]);
+    x[1] = static_cast<float>(ry * cx * b[1]);
+    y[1] = static_cast<float>(ry * cy * b[2]);
   }
+  struct Run {  // of boundary particles [begin, end) of a child: they lie side by side in the front
+    int begin, end, place;
+  };
+  std::vector<Run> runs;
   for (const int c : node.child) {
     if (c < 0) continue;
     const auto& child = d.nodes[static_cast<std::size_t>(c)];
-    auto& update = updates[static_cast<std::size_t>(c)];
-    const auto m = 2 * child.boundary.size();
-    for (std::size_t j = 0; j < m; ++j) {
-      const int column = 2 * child.place_in_parent[j / 2] + static_cast<int>(j % 2);
-      const double* in = update.data() + j * m;
-      double* out = front.data() + static_cast<std::size_t>(column) * ld;
-      for (std::size_t i = j; i < m; ++i) out[2 * child.place_in_parent[i / 2] + static_cast<int>(i % 2)] += in[i];
+    auto& update = schur_[static_cast<std::size_t>(c)];
+    const Packed<float> from{update.data(), 2 * child.rest()};
+    runs.clear();
+    for (int k = 0; k < child.rest(); ++k) {
+      const int place = child.place_in_parent[static_cast<std::size_t>(k)];
+      if (runs.empty() || runs.back().place + (k - runs.back().begin) != place) runs.push_back({k, k, place});
+      runs.back().end = k + 1;
     }
-    std::vector<double>().swap(update);
+    std::size_t run = 0;
+    for (int j = 0; j < from.m; ++j) {
+      if (j / 2 >= runs[run].end) ++run;
+      const float* in = from.column(j);
+      const int column = 2 * runs[run].place + j - 2 * runs[run].begin;
+      float* out = column < ns ? panel.column(column) : rest.column(column - ns) - ns;
+      for (std::size_t r = run; r < runs.size(); ++r) {
+        const int shift = 2 * (runs[r].place - runs[r].begin), end = 2 * runs[r].end;
+#pragma GCC ivdep
+        for (int i = std::max(j, 2 * runs[r].begin); i < end; ++i) out[i + shift] += in[i];
+      }
+    }
+    if (again_ == Again::whole || small(index)) std::vector<float>().swap(update);
   }
-  raised[static_cast<std::size_t>(index)] = partial_cholesky(front.data(), ld, ns, nf, diagonal, rule);
-  float* panel = panels_.data() + d.panel_offset[static_cast<std::size_t>(index)];
+  job.raised[static_cast<std::size_t>(index)] = partial_cholesky(panel, rest, diagonal, job.rule);
   for (int j = 0; j < ns; ++j) {
-    const double* in = front.data() + static_cast<std::size_t>(j) * ld;
-    for (int i = j; i < nf; ++i)
-      panel[static_cast<std::size_t>(j) * ld + static_cast<std::size_t>(i)] = static_cast<float>(in[i]);
-    inverse_[static_cast<std::size_t>(2 * node.begin + j)] = 1.0 / in[j];
-  }
-  const auto m = static_cast<std::size_t>(nf - ns);
-  auto& update = updates[static_cast<std::size_t>(index)];
-  update.resize(m * m);
-  for (std::size_t j = 0; j < m; ++j) {
-    const double* in = front.data() + (static_cast<std::size_t>(ns) + j) * ld + static_cast<std::size_t>(ns);
-    std::copy(in + j, in + m, update.data() + j * m + j);
+    inverse_[static_cast<std::size_t>(2 * node.begin + j)] = 1.0 / static_cast<double>(panel.column(j)[j]);
   }
 }
 
+void Factor::visit(int index, Job& job) {
+  const auto& node = dissection_->nodes[static_cast<std::size_t>(index)];
+  if (!job.stale[static_cast<std::size_t>(index)]) return;
+  if (small(index)) {
+    for (int i = node.first; i <= index; ++i) eliminate(i, job);
+    return;
+  }
+  const bool task = subtree(index) > task_particles;
+#pragma omp task if (task) default(shared)
+  visit(node.child[0], job);
+  visit(node.child[1], job);
+#pragma omp taskwait
+  eliminate(index, job);
+}
+
+void Factor::close(std::vector<std::uint8_t>& stale) const {
+  for (std::size_t k = 0; k + 1 < stale.size(); ++k) {
+    if (stale[k]) stale[static_cast<std::size_t>(dissection_->nodes[k].parent)] = 1;
+  }
+  for (std::size_t k = stale.size() - 1; k-- > 0;) {
+    const int parent = dissection_->nodes[k].parent;
+    if (small(parent) && stale[static_cast<std::size_t>(parent)]) stale[k] = 1;
+  }
+}
+
+double Factor::operations(std::span<const std::uint8_t> stale) const {
+  double total = 0;
+  for (std::size_t k = 0; k < stale.size(); ++k) {
+    if (!stale[k]) continue;
+    const double s = 2 * dissection_->nodes[k].own(), m = 2 * dissection_->nodes[k].rest();
+    total += s * s * s / 3 + s * s * m + s * m * m;
+  }
+  return total;
+}
+
 int Factor::factorise(const BlockMatrix& matrix, PivotRule rule) {
+  return factorise(matrix, std::vector<std::uint8_t>(dissection_->nodes.size(), 1), rule);
+}
+
+int Factor::factorise(const BlockMatrix& matrix, std::span<const std::uint8_t> stale, PivotRule rule) {
   const auto count = dissection_->nodes.size();
-  std::vector<std::vector<double>> updates(count);
-  std::vector<int> raised(count, 0);
+  Job job{matrix, stale, rule, std::vector<int>(count, 0)};
 #pragma omp parallel num_threads(threads_)
 #pragma omp single
-  eliminate(static_cast<int>(count) - 1, matrix, rule, updates, raised);
+  visit(static_cast<int>(count) - 1, job);
   int total = 0;
-  for (const int r : raised) total += r;
+  for (const int r : job.raised) total += r;
   return total;
 }
 
@@ -267,11 +320,9 @@ void Factor::forward_node(int index, double* y, const std::uint8_t* active, std:
       t[row + 1] += in[2 * k + 1];
     }
   }
-  const auto ld = static_cast<std::size_t>(d.leading[static_cast<std::size_t>(index)]);
-  panel_forward(panels_.data() + d.panel_offset[static_cast<std::size_t>(index)], ld, ns, nf,
-                inverse_.data() + 2 * node.begin, t.data());
+  panel_forward(panel(index), inverse_.data() + 2 * node.begin, t.data());
   std::copy(t.begin(), t.begin() + ns, own);
-  std::copy(t.begin() + ns, t.end(), updates_.data() + d.update_offset[static_cast<std::size_t>(index)]);
+  std::copy(t.begin() + ns, t.begin() + nf, updates_.data() + d.update_offset[static_cast<std::size_t>(index)]);
 }
 
 void Factor::visit_up(int index, double* y, const std::uint8_t* active) {
@@ -303,7 +354,7 @@ void Factor::backward_node(int index, double* x, std::vector<double>& t) {
   const Dissection& d = *dissection_;
   const auto& node = d.nodes[static_cast<std::size_t>(index)];
   const int ns = 2 * node.own(), nf = 2 * node.front();
-  t.resize(static_cast<std::size_t>(nf));
+  if (t.size() < static_cast<std::size_t>(nf)) t.resize(static_cast<std::size_t>(nf));
   double* own = x + 2 * node.begin;
   std::copy(own, own + ns, t.begin());
   for (std::size_t k = 0; k < node.boundary.size(); ++k) {
@@ -311,9 +362,7 @@ void Factor::backward_node(int index, double* x, std::vector<double>& t) {
     t[static_cast<std::size_t>(ns) + 2 * k] = in[0];
     t[static_cast<std::size_t>(ns) + 2 * k + 1] = in[1];
   }
-  const auto ld = static_cast<std::size_t>(d.leading[static_cast<std::size_t>(index)]);
-  panel_backward(panels_.data() + d.panel_offset[static_cast<std::size_t>(index)], ld, ns, nf,
-                 inverse_.data() + 2 * node.begin, t.data());
+  panel_backward(panel(index), inverse_.data() + 2 * node.begin, t.data());
   std::copy(t.begin(), t.begin() + ns, own);
 }
 
@@ -370,9 +419,7 @@ PathVector Factor::forward_path(std::span<const std::pair<int, std::array<double
         t[row + 1] += in[2 * k + 1];
       }
     }
-    const auto ld = static_cast<std::size_t>(d.leading[static_cast<std::size_t>(index)]);
-    panel_forward(panels_.data() + d.panel_offset[static_cast<std::size_t>(index)], ld, ns, nf,
-                  inverse_.data() + 2 * node.begin, t.data());
+    panel_forward(panel(index), inverse_.data() + 2 * node.begin, t.data());
     path.values.insert(path.values.end(), t.begin(), t.begin() + ns);
     std::copy(t.begin() + ns, t.end(), updates_.data() + d.update_offset[static_cast<std::size_t>(index)]);
   }

@@ -41,7 +41,7 @@ struct BlockMatrix {
 /// The elimination tree of a lattice: what does not change when the numbers do.
 class Dissection {
  public:
-  explicit Dissection(const Lattice& lattice, int leaf_particles = 12);
+  explicit Dissection(const Lattice& lattice, int leaf_particles = 30);
 
   struct Node {
     int begin = 0, end = 0;  ///< positions (particles, in elimination order) eliminated here
@@ -57,14 +57,16 @@ class Dissection {
     std::vector<Entry> entries;
     [[nodiscard]] int own() const { return end - begin; }
     [[nodiscard]] int front() const { return own() + static_cast<int>(boundary.size()); }
+    [[nodiscard]] int rest() const { return static_cast<int>(boundary.size()); }
   };
   Lattice lattice;
-  std::vector<Node> nodes;                               ///< children before parents; the last is the root
-  std::vector<int> order;                                ///< particle at each position
-  std::vector<int> position;                             ///< position of each particle
-  std::vector<int> node_of;                              ///< node that eliminates each position
-  std::vector<std::size_t> panel_offset, update_offset;  ///< of each node; one more entry than nodes
-  std::vector<int> leading;                              ///< leading dimension of each panel
+  std::vector<Node> nodes;    ///< children before parents; the last is the root
+  std::vector<int> order;     ///< particle at each position
+  std::vector<int> position;  ///< position of each particle
+  std::vector<int> node_of;   ///< node that eliminates each position
+  /// Of each node. Panels lie from the root down, the way the backward sweep reads them.
+  std::vector<std::size_t> panel_offset, update_offset;
+  std::size_t panel_size = 0, update_size = 0;
 
  private:
   int divide(int c0, int c1, int r0, int r1, int leaf);
@@ -77,14 +79,25 @@ struct PathVector {
   std::vector<double> values;  ///< of each node's positions, x and y, one node after the other
 };
 
-/// The numeric factor. Panels are kept in single precision (they precondition; the residual is judged in double), sums
-/// are made in double. Vectors hold x and y of each particle, in elimination order.
+/// The numeric factor, in single precision; sums of a solve are made in double. Vectors hold x and y of each particle,
+/// in elimination order.
 class Factor {
  public:
-  Factor(const Dissection& dissection, int threads);
+  /// Whether parts of the tree can be factorised anew later: costs about the memory of the panels once more.
+  enum class Again { whole, parts };
+  Factor(const Dissection& dissection, int threads, Again again = Again::whole);
 
   /// Factorises `matrix`; returns the number of negative pivots (see partial_cholesky).
   int factorise(const BlockMatrix& matrix, PivotRule rule = {});
+
+  /// A flag a node, closed so that `factorise` below may take it: what is flagged takes its whole small subtree and all
+  /// nodes up to the root with it.
+  void close(std::vector<std::uint8_t>& stale) const;
+  /// Factorises only the nodes of `stale` (closed) anew; the rest of `matrix` must be as it was. Same bits as the
+  /// whole.
+  int factorise(const BlockMatrix& matrix, std::span<const std::uint8_t> stale, PivotRule rule = {});
+  /// Operations (multiplications, about) that factorising the nodes of `stale` takes.
+  [[nodiscard]] double operations(std::span<const std::uint8_t> stale) const;
 
   /// y = L^-1 y for the nodes in `active` (a flag a node, closed towards the root); y is zero elsewhere and stays so.
   void forward(std::span<double> y, std::span<const std::uint8_t> active);
@@ -97,8 +110,17 @@ class Factor {
   [[nodiscard]] std::size_t entries() const { return panels_.size(); }
 
  private:
-  void eliminate(int node, const BlockMatrix& matrix, PivotRule rule, std::vector<std::vector<double>>& updates,
-                 std::vector<int>& raised);
+  struct Job {
+    const BlockMatrix& matrix;
+    std::span<const std::uint8_t> stale;
+    PivotRule rule;
+    std::vector<int> raised;
+  };
+  [[nodiscard]] int subtree(int node) const;  // particles
+  [[nodiscard]] bool small(int node) const;   // always factorised with all below it
+  void visit(int node, Job& job);
+  void eliminate(int node, Job& job);
+  [[nodiscard]] Panel<const float> panel(int node) const;
   void forward_node(int node, double* y, const std::uint8_t* active, std::vector<double>& t);
   void backward_node(int node, double* x, std::vector<double>& t);
   void visit_up(int node, double* y, const std::uint8_t* active);
@@ -106,9 +128,11 @@ class Factor {
 
   const Dissection* dissection_;
   int threads_;
+  Again again_;
   std::vector<float> panels_;
-  std::vector<double> inverse_;  // 1 / L_jj
-  std::vector<double> updates_;  // what a node hands to its parent in a forward sweep
+  std::vector<std::vector<float>> schur_;  // what a node hands to its parent in the factorisation
+  std::vector<double> inverse_;            // 1 / L_jj
+  std::vector<double> updates_;            // what a node hands to its parent in a forward sweep
 };
 
 }  // namespace dem::sheet

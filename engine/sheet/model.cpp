@@ -138,7 +138,7 @@ class Run {
     if (context_.checkpoint.empty()) return;
     if (!load_checkpoint(context_.checkpoint, spec_.content, kept_).loaded) return;
     experiment_->restore(kept_.experiment);
-    if (converged_ && !kept_.solver.x.empty()) {
+    if (converged_ && !kept_.solver.coupling.empty()) {
       converged_->restore(specimen_.sheet, kept_.solver);
       // The factor that was made again has been counted before.
       kept_.work.factorisations -= solver().work().factorisations;

@@ -38,6 +38,13 @@ int ModifiedFactor::factorise(const BlockMatrix& matrix, PivotRule rule) {
   return factor_.factorise(matrix, rule);
 }
 
+int ModifiedFactor::factorise(const BlockMatrix& matrix, std::span<const std::uint8_t> stale, PivotRule rule) {
+  paths_.clear();
+  lower_.clear();
+  pivots_.clear();
+  return factor_.factorise(matrix, stale, rule);
+}
+
 double ModifiedFactor::change(double c, int i, int j, std::array<double, 2> n, std::span<const std::uint8_t> fixed) {
   const Dissection& d = factor_.dissection();
   std::vector<std::pair<int, std::array<double, 2>>> load;

@@ -10,10 +10,13 @@ namespace dem::sheet {
 
 class ModifiedFactor {
  public:
-  ModifiedFactor(const Dissection& dissection, int threads) : factor_(dissection, threads) {}
+  ModifiedFactor(const Dissection& dissection, int threads, Factor::Again again = Factor::Again::whole)
+      : factor_(dissection, threads, again) {}
 
   /// Takes a new K0 and forgets all changes; returns the number of negative pivots.
   int factorise(const BlockMatrix& matrix, PivotRule rule = {});
+  /// The same where K0 changed in the nodes of `stale` only (see Factor).
+  int factorise(const BlockMatrix& matrix, std::span<const std::uint8_t> stale, PivotRule rule = {});
 
   /// Adds c b b^T with b = (n at particle i, -n at particle j), entries along held directions left out.
   /// A change that would leave K without stiffness along b is weakened to keep it positive definite.

@@ -43,21 +43,21 @@ struct ConvergedSettings {
 
 /// All that the next result of a converged solver hangs on besides the sheet: for checkpoints.
 struct ConvergedState {
-  std::vector<double> x, y, radius;  ///< sheet at the last factorisation
-  std::vector<std::uint8_t> joined;
+  std::vector<Block> coupling;  ///< of the matrix that the factor holds (its parts may stem from different times)
   struct Change {
     double coefficient;
     int slot;
     double nx, ny;
     bool active;
   };
-  std::vector<Change> changes;    ///< since then, in order
-  std::int64_t extra_solves = 0;  ///< counted towards the next factorisation
-  bool load_moved = false;        ///< since the last factorisation
+  std::vector<Change> changes;  ///< since the last factorisation, in order
+  double extra_solves = 0;      ///< counted towards the next one
+  double worth = 0;             ///< solves that cost as much as the last one
+  bool load_moved = false;      ///< since the last factorisation
 
   template <class Archive>
   void archive(Archive& a) {
-    a(x, y, radius, joined, changes, extra_solves, load_moved);
+    a(coupling, changes, extra_solves, worth, load_moved);
   }
 };
 

@@ -20,32 +20,36 @@ Block tangent_block(const Sheet& s, const Forces& f, int slot, Tangent tangent) 
   return {along * nx * nx + g, along * nx * ny, along * ny * ny + g};
 }
 
+Block diagonal_of(const Sheet& s, const BlockMatrix& m, int particle) {
+  Block sum{0, 0, 0};
+  double stiffest = 0;
+  int springs = 0;
+  for (int d = 0; d < 6; ++d) {
+    const int other = s.lattice.neighbour(particle, d);
+    if (other < 0) continue;
+    const auto slot = static_cast<std::size_t>(d < 3 ? d * s.particles() + particle : (d - 3) * s.particles() + other);
+    const Block& b = m.coupling[slot];
+    for (std::size_t q = 0; q < 3; ++q) sum[q] -= b[q];
+    stiffest = std::max(stiffest, s.stiffness[slot]);
+    springs += b == Block{0, 0, 0} ? 0 : 1;
+  }
+  if (springs <= 2) sum[0] += tether * stiffest, sum[2] += tether * stiffest;
+  return sum;
+}
+
 BlockMatrix assemble(const Sheet& s, const Forces& f, Tangent tangent) {
   const auto n = static_cast<std::size_t>(s.particles());
   BlockMatrix m;
-  m.diagonal.assign(n, {0, 0, 0});
   m.coupling.assign(3 * n, {0, 0, 0});
   m.fixed = s.fixed;
-  std::vector<double> stiffest(n, 0.0);
-  std::vector<std::uint8_t> springs(n, 0);
   for (int slot = 0; slot < s.slots(); ++slot) {
     const auto k = static_cast<std::size_t>(slot);
     if (s.stiffness[k] <= 0) continue;
     const Block b = tangent_block(s, f, slot, tangent);
-    const bool on = active(s, f, slot);
-    for (const int p : {s.first(slot), s.second(slot)}) {
-      const auto i = static_cast<std::size_t>(p);
-      for (std::size_t q = 0; q < 3; ++q) m.diagonal[i][q] += b[q];
-      stiffest[i] = std::max(stiffest[i], s.stiffness[k]);
-      springs[i] = static_cast<std::uint8_t>(springs[i] + (on ? 1 : 0));
-    }
     m.coupling[k] = {-b[0], -b[1], -b[2]};
   }
-  for (std::size_t i = 0; i < n; ++i) {
-    if (springs[i] > 2) continue;
-    m.diagonal[i][0] += tether * stiffest[i];
-    m.diagonal[i][2] += tether * stiffest[i];
-  }
+  m.diagonal.resize(n);
+  for (int i = 0; i < s.particles(); ++i) m.diagonal[static_cast<std::size_t>(i)] = diagonal_of(s, m, i);
   return m;
 }
 

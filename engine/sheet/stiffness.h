@@ -19,6 +19,9 @@ enum class Tangent { exact, stable };
 /// The block of one slot (positive: its share of the diagonal).
 Block tangent_block(const Sheet& sheet, const Forces& forces, int slot, Tangent tangent = Tangent::exact);
 
+/// The sum of the couplings of a particle in `matrix`, tether included.
+Block diagonal_of(const Sheet& sheet, const BlockMatrix& matrix, int particle);
+
 /// Assembles the whole matrix. Particles left on two springs or fewer get a tether of a thousandth of their stiffest
 /// spring, so that the matrix can be factorised; the tether is no force, it only shortens steps along mechanisms.
 BlockMatrix assemble(const Sheet& sheet, const Forces& forces, Tangent tangent = Tangent::exact);

@@ -126,13 +126,41 @@ TEST_CASE("cutting a particle loose leaves a factor that still solves") {
 }
 
 TEST_CASE("partial Cholesky raises pivots that have lost their stiffness") {
-  double a[16] = {};
-  a[0] = 2, a[1] = -2, a[5] = 2, a[10] = 1, a[15] = 1;  // two pairs, the first without stiffness against the second
-  const double diagonal[4] = {2, 2, 1, 1};
-  CHECK(partial_cholesky(a, 4, 4, 4, diagonal, {}) == 0);
-  CHECK(a[5] == doctest::Approx(std::sqrt(2e-3)));
-  double b[4] = {2, -3, 0, 2};  // a direction of negative stiffness is told
-  CHECK(partial_cholesky(b, 2, 2, 2, diagonal, {}) == 1);
+  // Two pairs, the first without stiffness against the second. Columns from the diagonal down, the last one first.
+  float panel[10] = {1, 1, 0, 2, 0, 0, 2, -2, 0, 0};
+  const float diagonal[4] = {2, 2, 1, 1};
+  CHECK(partial_cholesky({panel, 4, 4}, {}, diagonal, {}) == 0);
+  CHECK(panel[3] == doctest::Approx(std::sqrt(2e-3)));
+  float b[3] = {2, 2, -3};  // a direction of negative stiffness is told
+  CHECK(partial_cholesky({b, 2, 2}, {}, diagonal, {}) == 1);
+}
+
+TEST_CASE("a factor made anew in parts has the bits of one made as a whole") {
+  Sheet s = make_sheet(90, 104);
+  Forces f;
+  compute_forces(s, f, 1);
+  const Dissection d(s.lattice);
+  Factor parts(d, 1, Factor::Again::parts), whole(d, 1);
+  parts.factorise(assemble(s, f));
+  std::vector<std::uint8_t> stale(d.nodes.size(), 0);
+  for (const int slot : {50 * 90 + 31, s.particles() + 80 * 90 + 70, 2 * s.particles() + 3 * 90 + 88}) {
+    s.stiffness[static_cast<std::size_t>(slot)] = 0.25;
+    const int at = std::min(d.position[static_cast<std::size_t>(s.first(slot))],
+                            d.position[static_cast<std::size_t>(s.second(slot))]);
+    stale[static_cast<std::size_t>(d.node_of[static_cast<std::size_t>(at)])] = 1;
+  }
+  parts.close(stale);
+  const BlockMatrix matrix = assemble(s, f);
+  CHECK(parts.operations(stale) < 0.5 * parts.operations(std::vector<std::uint8_t>(stale.size(), 1)));
+  parts.factorise(matrix, stale);
+  whole.factorise(matrix);
+  std::vector<double> one = random_load(s, d), other = one;
+  const std::vector<std::uint8_t> active(d.nodes.size(), 1);
+  parts.forward(one, active);
+  parts.backward(one);
+  whole.forward(other, active);
+  whole.backward(other);
+  CHECK(one == other);
 }
 
 TEST_CASE("one or several threads give the same factor") {
