@@ -13,10 +13,13 @@ namespace {
 constexpr int usual_solves = 2;  // of a relaxation with a good factor
 // A part of the factor is made anew when solves beyond the usual ones have cost what that is likely to cost.
 constexpr double least_worth = 1, operations_a_solve = 1e9;
-constexpr double slight_change = 0.001;  // of a spring's stiffness: such a tangent stays in the factor
-constexpr int most_changes = 300;        // rank beyond which corrections cost more than a new factor
-constexpr double peak_share = 0.02;      // of the largest unbalanced force: what patches are laid around
-constexpr std::size_t most_hot = 2000, most_patches = 6;
+constexpr double gross_change = 0.05;     // of a spring's stiffness: the factor follows wherever that is
+constexpr double slight_change = 0.0005;  // the factor follows where it was seen to fall short
+constexpr double least_heat = 0.01;       // share of the unbalanced force that a solve left there
+constexpr int tile = 16;                  // particles a side of the squares in which that is noted
+constexpr int most_changes = 300;         // rank beyond which corrections cost more than a new factor
+constexpr double peak_share = 0.02;       // of the largest unbalanced force: what patches are laid around
+constexpr std::size_t most_hot = 2000, most_patches = 3;
 constexpr double longest_step = 0.2;  // of a particle radius, in one step
 
 }  // namespace
@@ -32,15 +35,17 @@ struct ConvergedSolver::Impl {
   double extra_solves = 0;                      // counted towards the next one
   bool load_moved = false;                      // since the last whole one
   std::vector<std::uint8_t> held;               // of each slot: whether the factor has it, changes included
-  std::vector<std::uint8_t> stale;              // of each node of the tree
-  std::vector<int> watched;                     // slots that are not joined
-  double worth = 0;                             // solves that cost as much as the last factorisation
+  std::vector<double> heat;         // of each tile: the largest share of the unbalanced force that a solve left there
+  std::vector<std::uint8_t> stale;  // of each node of the tree
+  std::vector<int> watched;         // slots that are not joined
+  double worth = 0;                 // solves that cost as much as the last factorisation
   Patches patches;
   std::vector<double> u;  // load, then displacement, in elimination order
 
   Impl(const Sheet& sheet, ConvergedSettings s)
       : settings(s), dissection(sheet.lattice), factor(dissection, s.threads, Factor::Again::parts) {
     u.assign(2 * static_cast<std::size_t>(sheet.particles()), 0.0);
+    heat.assign(static_cast<std::size_t>(tiles_across() * tiles_up()), 0.0);
   }
 
   // The node that eliminates the first of a slot's particles: it holds the coupling, and what it changes reaches the
@@ -50,15 +55,50 @@ struct ConvergedSolver::Impl {
     return dissection.node_of[static_cast<std::size_t>(std::min(at(sheet.first(slot)), at(sheet.second(slot))))];
   }
 
-  // Makes the factor follow the tangent where that has changed by more than `slight` of a spring's stiffness.
-  // The tree above is factorised anew, the rest keeps what it held: a factor serves as a preconditioner only.
-  int follow_tangent(const Sheet& sheet, const Forces& forces, Tangent tangent, double slight) {
+  int tiles_across() const { return (dissection.lattice.columns + tile - 1) / tile; }
+  int tiles_up() const { return (dissection.lattice.rows + tile - 1) / tile; }
+
+  // Notes where a solve left unbalanced forces: there the factor is out of date. `before` it, the largest was so much.
+  void warm(const Sheet& sheet, const Forces& forces, double before) {
+    const int columns = sheet.lattice.columns, across = tiles_across();
+#pragma omp parallel for schedule(static) num_threads(settings.threads)
+    for (int t = 0; t < tiles_up(); ++t) {
+      for (int r = t * tile; r < std::min(sheet.lattice.rows, (t + 1) * tile); ++r) {
+        for (int c = 0; c < columns; ++c) {
+          const double share = open(sheet, forces, static_cast<std::size_t>(r * columns + c)) / before;
+          double& most = heat[static_cast<std::size_t>(t * across + c / tile)];
+          most = share > most ? share : most;
+        }
+      }
+    }
+  }
+
+  // For each tile, whether it or one next to it is one where the factor falls short.
+  std::vector<std::uint8_t> hot_tiles() const {
+    const int across = tiles_across(), up = tiles_up();
+    std::vector<std::uint8_t> hot(heat.size(), 0);
+    for (int t = 0; t < across * up; ++t) {
+      if (heat[static_cast<std::size_t>(t)] < least_heat) continue;
+      for (int y = std::max(0, t / across - 1); y <= std::min(up - 1, t / across + 1); ++y) {
+        for (int x = std::max(0, t % across - 1); x <= std::min(across - 1, t % across + 1); ++x) {
+          hot[static_cast<std::size_t>(y * across + x)] = 1;
+        }
+      }
+    }
+    return hot;
+  }
+
+  enum class Extent { part, whole };
+
+  // Makes the factor follow the tangent everywhere, or where that has changed and matters: the tree above such places
+  // is factorised anew, the rest keeps what it held. A factor serves as a preconditioner only.
+  int follow_tangent(const Sheet& sheet, const Forces& forces, Tangent tangent, Extent extent) {
     const auto slots = static_cast<std::size_t>(sheet.slots());
     matrix.fixed = sheet.fixed;
     matrix.coupling.resize(slots, {0, 0, 0});
     matrix.diagonal.resize(sheet.x.size());
     std::vector<Block> now(slots);
-    stale.assign(dissection.nodes.size(), factorised ? 0 : 1);
+    stale.assign(dissection.nodes.size(), extent == Extent::whole || !factorised ? 1 : 0);
 #pragma omp parallel for schedule(static) num_threads(settings.threads)
     for (int slot = 0; slot < sheet.slots(); ++slot) {
       const auto k = static_cast<std::size_t>(slot);
@@ -66,12 +106,16 @@ struct ConvergedSolver::Impl {
       const Block b = tangent_block(sheet, forces, slot, tangent);
       now[k] = {-b[0], -b[1], -b[2]};
     }
-    for (int slot = 0; slot < sheet.slots(); ++slot) {
+    const std::vector<std::uint8_t> hot = hot_tiles();
+    for (int slot = 0; extent == Extent::part && slot < sheet.slots(); ++slot) {
       const auto k = static_cast<std::size_t>(slot);
       const Block& then = matrix.coupling[k];
       const double most =
           std::max({std::fabs(now[k][0] - then[0]), std::fabs(now[k][1] - then[1]), std::fabs(now[k][2] - then[2])});
-      if (most > slight * sheet.stiffness[k]) stale[static_cast<std::size_t>(node_of(sheet, slot))] = 1;
+      if (most <= slight_change * sheet.stiffness[k]) continue;
+      const int i = sheet.first(slot), columns = sheet.lattice.columns;
+      const bool here = hot[static_cast<std::size_t>(i / columns / tile * tiles_across() + i % columns / tile)] != 0;
+      if (here || most > gross_change * sheet.stiffness[k]) stale[static_cast<std::size_t>(node_of(sheet, slot))] = 1;
     }
     factor.factor().close(stale);
     for (int slot = 0; slot < sheet.slots(); ++slot) {
@@ -86,15 +130,12 @@ struct ConvergedSolver::Impl {
     return factor.factorise(matrix, stale);
   }
 
-  enum class Extent { part, whole };
-
   void factorise(const Sheet& sheet, const Forces& forces, Extent extent) {
-    const double slight = extent == Extent::whole ? -1 : slight_change;
     // A tangent that has lost its stiffness somewhere (pivots would be raised over and over, and grow without bound)
     // gives way to the stable one: its steps still go down in energy, to the equilibrium beyond.
-    if (const int negative = follow_tangent(sheet, forces, Tangent::exact, slight); negative > 0) {
+    if (const int negative = follow_tangent(sheet, forces, Tangent::exact, extent); negative > 0) {
       done.negative_pivots += negative;
-      follow_tangent(sheet, forces, Tangent::stable, -1);
+      follow_tangent(sheet, forces, Tangent::stable, Extent::whole);
     }
     ++done.factorisations;
     worth = factor.factor().operations(stale) / operations_a_solve;
@@ -102,6 +143,7 @@ struct ConvergedSolver::Impl {
     hold(sheet);
     changes.clear();
     extra_solves = 0;
+    std::fill(heat.begin(), heat.end(), 0.0);
     if (extent == Extent::whole) load_moved = false;
   }
 
@@ -154,6 +196,13 @@ struct ConvergedSolver::Impl {
     }
   }
 
+  // The larger component of the unbalanced force on a particle, along free directions.
+  static double open(const Sheet& sheet, const Forces& forces, std::size_t i) {
+    const double fx = (sheet.fixed[i] & 1) ? 0.0 : std::fabs(forces.x[i]);
+    const double fy = (sheet.fixed[i] & 2) ? 0.0 : std::fabs(forces.y[i]);
+    return std::max(fx, fy);
+  }
+
   // What is unbalanced: how much, and the boxes that cover what is above a share of the peak and of the tolerance
   // (none when that takes more than most_patches boxes).
   struct Imbalance {
@@ -177,11 +226,7 @@ struct ConvergedSolver::Impl {
     }
     Imbalance all;
     for (const auto& one : row) all.largest_spring = std::max(all.largest_spring, one.largest_spring);
-    const auto size = [&](std::size_t i) {
-      const double fx = (sheet.fixed[i] & 1) ? 0.0 : std::fabs(forces.x[i]);
-      const double fy = (sheet.fixed[i] & 2) ? 0.0 : std::fabs(forces.y[i]);
-      return std::max(fx, fy);
-    };
+    const auto size = [&](std::size_t i) { return open(sheet, forces, i); };
 #pragma omp parallel for schedule(static) num_threads(settings.threads)
     for (int r = 0; r < rows; ++r) {
       double most = 0;
@@ -386,6 +431,7 @@ struct ConvergedSolver::Impl {
       }
       const int solves = global_step(sheet, forces, slow >= 2);
       now = look(sheet, forces);
+      warm(sheet, forces, before);
       result.iterations += solves;
       if (now.most > 0.3 * before) ++slow;
       if (!fresh) extra_solves += solves;
@@ -408,7 +454,7 @@ Relaxation ConvergedSolver::relax(Sheet& sheet, Forces& forces, std::span<const 
 SolverWork ConvergedSolver::work() const { return impl_->done; }
 ConvergedState ConvergedSolver::state() const {
   const Impl& i = *impl_;
-  return {i.matrix.coupling, i.changes, i.extra_solves, i.worth, i.load_moved};
+  return {i.matrix.coupling, i.changes, i.heat, i.extra_solves, i.worth, i.load_moved};
 }
 
 void ConvergedSolver::restore(const Sheet& sheet, const ConvergedState& state) {
@@ -426,6 +472,7 @@ void ConvergedSolver::restore(const Sheet& sheet, const ConvergedState& state) {
   i.changes.clear();
   i.hold(sheet);
   for (const auto& change : state.changes) i.change(sheet, change);
+  i.heat = state.heat;
   i.extra_solves = state.extra_solves;
   i.worth = state.worth;
   i.load_moved = state.load_moved;

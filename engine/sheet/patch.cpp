@@ -10,7 +10,7 @@ namespace dem::sheet {
 namespace {
 
 constexpr int most_iterations = 10;
-constexpr int side = 20, rim = 4;
+constexpr int side = 48, rim = 12;
 constexpr double longest_step = 0.2;  // of a particle radius
 
 int slot_between(const Sheet& s, int i, int direction, int j) {

@@ -17,7 +17,7 @@ struct PatchBox {
 
 class Patches {
  public:
-  /// The box of 20 particles a side around a particle, moved inside the lattice where it would stick out.
+  /// The box of 48 particles a side around a particle, moved inside the lattice where it would stick out.
   [[nodiscard]] static PatchBox around(const Lattice& lattice, int column, int row);
   /// True when the particle is far enough inside the box for what its patch pushes over the rim to be small.
   [[nodiscard]] static bool covers(const Lattice& lattice, const PatchBox& box, int column, int row);

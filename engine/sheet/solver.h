@@ -51,13 +51,14 @@ struct ConvergedState {
     bool active;
   };
   std::vector<Change> changes;  ///< since the last factorisation, in order
+  std::vector<double> heat;     ///< where the factor was seen to fall short
   double extra_solves = 0;      ///< counted towards the next one
   double worth = 0;             ///< solves that cost as much as the last one
   bool load_moved = false;      ///< since the last factorisation
 
   template <class Archive>
   void archive(Archive& a) {
-    a(coupling, changes, extra_solves, worth, load_moved);
+    a(coupling, changes, heat, extra_solves, worth, load_moved);
   }
 };
 
