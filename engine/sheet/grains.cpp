@@ -241,6 +241,11 @@ ElleMap layered_map(double height, double low, double high, const VoronoiSetting
   return map;
 }
 
+TooFewInside::TooFewInside(int found, int wanted)
+    : InputError(fmt::format("only {} grains lie inside the box, {} should expand", found, wanted),
+                 "lower grains.expanding or raise grains.count"),
+      inside(found) {}
+
 void mark_expanding(ElleMap& map, int count, const std::string& mineral, std::uint64_t seed) {
   std::vector<int> inner;
   for (std::size_t f = 0; f < map.flynns.size(); ++f) {
@@ -252,10 +257,7 @@ void mark_expanding(ElleMap& map, int count, const std::string& mineral, std::ui
     });
     if (inside) inner.push_back(map.flynns[f].id);
   }
-  if (static_cast<int>(inner.size()) < count) {
-    throw InputError(fmt::format("only {} grains lie inside the box, {} should expand", inner.size(), count),
-                     "lower grains.expanding or raise grains.count");
-  }
+  if (static_cast<int>(inner.size()) < count) throw TooFewInside(static_cast<int>(inner.size()), count);
   RandomStream random(seed, Purpose::sheet_grain_centres, 1);
   std::vector<int> chosen;
   for (int k = 0; k < count; ++k) {

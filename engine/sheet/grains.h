@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/errors.h"
 #include "engine/sheet/elle.h"
 #include "engine/sheet/sheet.h"
 
@@ -22,6 +23,12 @@ ElleMap voronoi_map(const VoronoiSettings& settings);
 /// Horizontal bands: matrix below (flynn 0), a layer, matrix above (the last flynn); MINERAL MATRIX and LAYER. The
 /// layer is one grain, or is grown of `grains.grains` Voronoi cells cut at its edges when that is more than one.
 ElleMap layered_map(double height, double layer_low, double layer_high, const VoronoiSettings& grains = {.grains = 1});
+/// Fewer grains lie inside the box than should expand.
+struct TooFewInside : InputError {
+  TooFewInside(int found, int wanted);
+  int inside;
+};
+
 /// Marks `count` grains away from the box's edge, drawn at random, as expanding (EXPAND 1, MINERAL `mineral`).
 void mark_expanding(ElleMap& map, int count, const std::string& mineral, std::uint64_t seed);
 

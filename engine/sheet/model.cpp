@@ -42,7 +42,16 @@ std::vector<CaseSpec> cases(const Scenario& s) {
       prefixes.emplace_back(solver == "converged" ? "solver." : "published.");
       spec.content = fmt::format("{}\nseed = {}\n{}", version, s.seed(), one.canonical(prefixes));
       // A broken file, a map that does not cover the sheet or has too few grains are found before anything runs.
-      if (all.empty() && (settings.source == "file" || settings.expanding > 0)) (void)make_specimen(settings);
+      if (all.empty() && (settings.source == "file" || settings.expanding > 0)) {
+        try {
+          (void)make_specimen(settings);
+        } catch (const TooFewInside& few) {
+          throw s.error(
+              "grains.expanding",
+              fmt::format("{} grains should expand, but only {} lie inside the box", settings.expanding, few.inside),
+              "lower it or raise grains.count");
+        }
+      }
       if (settings.source == "file") {
         spec.content += "map = " + sha256(read_file(settings.file)) + "\n";
       }

@@ -60,6 +60,13 @@ TEST_CASE("values that are wrong together are refused with their place") {
     CAPTURE(set);
     CHECK_THROWS_AS((void)model().cases(scenario(name, {set})), dem::InputError);
   }
+  try {
+    (void)model().cases(scenario("elle_expanding_grains", {"grains.expanding=1000"}));
+    FAIL("a thousand grains cannot expand");
+  } catch (const dem::InputError& error) {
+    CHECK(error.key() == "grains.expanding");
+    CHECK(std::string(error.what()).find("--set") != std::string::npos);
+  }
 }
 
 TEST_CASE("a record holds what figures and summary need") {
