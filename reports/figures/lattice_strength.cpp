@@ -124,10 +124,7 @@ FigureContent block_strengths(const StudyResult& study) {
       "and 18.51 % in "
       "compression, because cracks begin at the boundary, where elements have fewer bonds.";
   for (const Test& test : {tension, compression}) {
-    if (auto missing = missing_cases(study, test.name)) {
-      missing->id += "_" + std::string(test.name);
-      content.panels.push_back(*missing);
-    }
+    add_missing(content, study, {test.name});
     const auto records = by_size(study, test.name);
     if (records.empty()) continue;
     int n = 0;

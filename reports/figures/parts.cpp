@@ -187,4 +187,27 @@ std::string by_case(const std::vector<SeriesCase>& cases, const Measure& value,
   return items.empty() ? "not measured" : listed(items) + (unit.empty() ? "" : " " + std::string(unit));
 }
 
+void add_curves(render::Chart& chart, const std::vector<SeriesCase>& cases, const CurveOf& of, double up_to) {
+  for (const SeriesCase& item : cases) {
+    render::Series series = curve(item.record->table("history"), of);
+    const auto beyond = std::ranges::find_if(series.x, [&](double x) { return x > up_to; }) - series.x.begin();
+    series.x.resize(static_cast<std::size_t>(beyond));
+    series.y.resize(static_cast<std::size_t>(beyond));
+    if (series.x.empty()) continue;
+    series.label = item.label;
+    series.colour = item.colour;
+    series.line = item.line;
+    chart.series.push_back(std::move(series));
+  }
+}
+
+void add_missing(FigureContent& content, const StudyResult& study, std::initializer_list<std::string_view> tests) {
+  for (const std::string_view test : tests) {
+    auto missing = missing_cases(study, test);
+    if (!missing) continue;
+    missing->id += "_" + std::string(test);
+    content.panels.push_back(std::move(*missing));
+  }
+}
+
 }  // namespace reports

@@ -1,6 +1,8 @@
 #pragma once
 // Pieces that figures of any model share: which cases a figure shows, curves from a history, panels for what is missing.
 #include <functional>
+#include <initializer_list>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -61,6 +63,8 @@ std::string estimate_text(const Estimate& estimate, int digits, bool in_table = 
 /// A table of the cases of a test that have no record, with the reason; nothing when all have one.
 /// Cases belong to a test when their id starts with its name.
 std::optional<Panel> missing_cases(const StudyResult& study, std::string_view test);
+/// Those of several tests, as panels of their own.
+void add_missing(FigureContent& content, const StudyResult& study, std::initializer_list<std::string_view> tests);
 
 /// A curve from two columns of a history; points that are not finite are left out.
 struct CurveOf {
@@ -68,6 +72,9 @@ struct CurveOf {
   double x_factor = 1, y_factor = 1;
 };
 render::Series curve(const dem::Table& history, const CurveOf& of);
+/// That curve of every case, in its colour and line, up to where x reaches `up_to`.
+void add_curves(render::Chart& chart, const std::vector<SeriesCase>& cases, const CurveOf& of,
+                double up_to = std::numeric_limits<double>::infinity());
 
 /// The y value of a column where `x` first reaches `at`, linear in between; NaN when it never does.
 double at_first(std::span<const double> x, std::span<const double> y, double at);

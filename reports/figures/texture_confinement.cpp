@@ -57,21 +57,7 @@ render::Chart against_strain(const std::vector<SeriesCase>& cases, const Column&
   render::Chart chart;
   chart.x.title = "Axial strain (%)";
   chart.left.title = column.title;
-  for (const SeriesCase& item : cases) {
-    render::Series all = curve(item.record->table("history"), {"axial_strain", column.name, 100, column.factor});
-    render::Series series = all;
-    series.x.clear();
-    series.y.clear();
-    for (std::size_t i = 0; i < all.x.size() && all.x[i] <= up_to; ++i) {
-      series.x.push_back(all.x[i]);
-      series.y.push_back(all.y[i]);
-    }
-    if (series.x.empty()) continue;
-    series.label = item.label;
-    series.colour = item.colour;
-    series.line = item.line;
-    chart.series.push_back(series);
-  }
+  add_curves(chart, cases, {"axial_strain", column.name, 100, column.factor}, up_to);
   chart.legend = render::Chart::Legend::below;
   chart.width = half_width;
   chart.height = curves_height;

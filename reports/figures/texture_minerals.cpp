@@ -49,12 +49,7 @@ FigureContent mineral_properties(const StudyResult& study) {
   FigureContent content;
   content.statement = "Each mineral alone, in a specimen of about 2000 particles, was calibrated to a modulus, a tensile strength, a "
                       "compressive strength and a Hoek-Brown m.";
-  for (const std::string_view test : {test_compression, test_tension}) {
-    if (auto missing = missing_cases(study, test)) {
-      missing->id += "_" + std::string(test);
-      content.panels.push_back(*missing);
-    }
-  }
+  add_missing(content, study, {test_compression, test_tension});
   TextTable table{{"Mineral", "E (GPa)", "TS (MPa)", "UCS (MPa)", "m (95 % interval)"}, {}};
   std::vector<std::string> said;
   for (const std::string& mineral : minerals_tested(study)) {

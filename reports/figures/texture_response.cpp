@@ -158,13 +158,7 @@ render::Chart tension_curves(const std::vector<SeriesCase>& cases) {
   chart.x.title = "Axial strain (%)";
   chart.left.title = "Axial tension (MPa)";
   chart.left.low = 0;
-  for (const SeriesCase& item : cases) {
-    render::Series series = curve(item.record->table("history"), {"axial_strain", "axial_stress", 100, 1e-6});
-    series.label = item.label;
-    series.colour = item.colour;
-    series.line = item.line;
-    chart.series.push_back(series);
-  }
+  add_curves(chart, cases, {"axial_strain", "axial_stress", 100, 1e-6});
   chart.legend = render::Chart::Legend::below;
   chart.width = half_width;
   chart.height = curves_height;
@@ -395,12 +389,7 @@ FigureContent stress_strain(const StudyResult& study) {
       "198.4 MPa and TS from 9.8 to 9.4 and 9.1 MPa at aspect ratios 1, 2 and 3; UCS/TS rises slightly.";
   const auto compression = swept(study, test_compression);
   const auto tension = swept(study, test_tension);
-  for (const std::string_view test : {test_compression, test_tension}) {
-    if (auto missing = missing_cases(study, test)) {
-      missing->id += "_" + std::string(test);
-      content.panels.push_back(*missing);
-    }
-  }
+  add_missing(content, study, {test_compression, test_tension});
   const std::string ucs = by_case(compression, result("ucs_MPa"), 4, "MPa");
   const std::string ts = by_case(tension, result("tensile_strength_MPa"), 3, "MPa");
   if (!compression.empty()) {
@@ -425,12 +414,7 @@ FigureContent dip_strengths(const StudyResult& study) {
                       "UCS/TS falls from 21 to 17.";
   const auto compression = swept(study, test_compression);
   const auto tension = swept(study, test_tension);
-  for (const std::string_view test : {test_compression, test_tension}) {
-    if (auto missing = missing_cases(study, test)) {
-      missing->id += "_" + std::string(test);
-      content.panels.push_back(*missing);
-    }
-  }
+  add_missing(content, study, {test_compression, test_tension});
   const auto found = strengths(compression, tension);
   add_strengths(content, found);
   content.finding = strengths_found(compression, tension, found, swept_axis(study));

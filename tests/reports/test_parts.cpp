@@ -143,6 +143,6 @@ TEST_CASE("cases are told apart by what sets them apart") {
   small.parameters = {{"test", "compression"}, {"aspect_ratio", 1.0}, {"seed_scale", 0.675}};
   const reports::StudyResult study{&scenario, {{"a", &base, ""}, {"b", &small, ""}, {"c_d", nullptr, "failed"}}};
   CHECK(reports::case_label(study, study.cases[0]) == "AR 1");
-  CHECK(reports::case_label(study, study.cases[1]) == "AR 1, seed scale 0.675");
+  CHECK(reports::case_label(study, study.cases[1]) == "seed scale 0.675");
   CHECK(reports::case_label(study, study.cases[2]) == "c d");
 }
