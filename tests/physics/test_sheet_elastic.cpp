@@ -20,6 +20,9 @@ double largest_strain(const Sheet& s, const Forces& f) {
   return most;
 }
 
+// Values here are small against one: doctest's Approx, whose margin has a floor of epsilon, would pass anything.
+double off(double value, double expected) { return std::fabs(value / expected - 1); }
+
 }  // namespace
 
 TEST_CASE("E = 2k/sqrt(3) and nu = 1/3 from uniaxial strain and pure shear, with half-weight wall springs") {
@@ -39,15 +42,15 @@ TEST_CASE("E = 2k/sqrt(3) and nu = 1/3 from uniaxial strain and pure shear, with
     // Plane stress: sigma = E / (1 - nu^2) (eps + nu eps_other)
     const double c = young / (1 - nu * nu);
     const double ex = e, ey = kind == LoadingKind::pure_shear ? -e : 0.0;
-    CHECK(s.stress_xx == doctest::Approx(c * (ex + nu * ey)).epsilon(1e-6));
-    CHECK(s.stress_yy == doctest::Approx(c * (ey + nu * ex)).epsilon(1e-6));
+    CHECK(off(s.stress_xx, c * (ex + nu * ey)) < 1e-6);
+    CHECK(off(s.stress_yy, c * (ey + nu * ex)) < 1e-6);
     if (kind == LoadingKind::extension) {
       const double ratio = s.stress_yy / s.stress_xx;
-      CHECK(ratio == doctest::Approx(nu).epsilon(1e-6));
-      CHECK(s.stress_xx / e * (1 - ratio * ratio) == doctest::Approx(young).epsilon(1e-6));
+      CHECK(off(ratio, nu) < 1e-6);
+      CHECK(off(s.stress_xx / e * (1 - ratio * ratio), young) < 1e-6);
     }
     const double density = s.elastic / (sheet.width * sheet.height);
-    CHECK(density == doctest::Approx(0.5 * (s.stress_xx * ex + s.stress_yy * ey)).epsilon(1e-5));
+    CHECK(off(density, 0.5 * (s.stress_xx * ex + s.stress_yy * ey)) < 1e-5);
   }
 }
 
@@ -79,8 +82,8 @@ TEST_CASE("particles away from walls feel the stress of the walls") {
   const Stress stress = particle_stress(sheet, experiment.forces());
   const WallStress wall = wall_stress(sheet, experiment.forces());
   const auto middle = static_cast<std::size_t>(17 * 30 + 15);
-  CHECK(stress.xx[middle] == doctest::Approx(wall.xx).epsilon(1e-4));
-  CHECK(stress.yy[middle] == doctest::Approx(wall.yy).epsilon(1e-4));
+  CHECK(off(stress.xx[middle], wall.xx) < 1e-4);
+  CHECK(off(stress.yy[middle], wall.yy) < 1e-4);
   CHECK(std::fabs(stress.xy[middle]) < 1e-6 * std::fabs(wall.xx));
 }
 
@@ -88,16 +91,19 @@ TEST_CASE("a disc that grows by 0.2 % strains the sheet as converged computation
   const std::pair<int, double> expected[] = {{50, 1.08e-3}, {100, 1.20e-3}, {200, 1.30e-3}, {400, 1.40e-3}};
   for (const auto& [columns, strain] : expected) {
     Sheet sheet = make_sheet(columns);
+    // The middle is half a width from the first particle, as in the computations set beside: which particles the edge
+    // takes in changes the largest strain by up to a tenth.
+    const double x = sheet.x[0] + 0.5, y = sheet.y[0] + 0.5;
     for (int i = 0; i < sheet.particles(); ++i) {
       const auto p = static_cast<std::size_t>(i);
-      if (std::hypot(sheet.x[p] - 0.5, sheet.y[p] - 0.5) < 0.1) sheet.radius[p] *= 1.002;
+      if (std::hypot(sheet.x[p] - x, sheet.y[p] - y) < 0.1) sheet.radius[p] *= 1.002;
     }
     ConvergedSolver solver(sheet, {});
     Forces forces;
     const Relaxation r = solver.relax(sheet, forces, {});
     CHECK(r.reached);
     CAPTURE(columns);
-    CHECK(largest_strain(sheet, forces) == doctest::Approx(strain).epsilon(0.01));
+    CHECK(off(largest_strain(sheet, forces), strain) < 0.01);
     MESSAGE(columns << " columns: largest strain " << largest_strain(sheet, forces));
   }
 }
