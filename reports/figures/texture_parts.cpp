@@ -104,6 +104,11 @@ std::vector<SeriesCase> swept(const StudyResult& study, std::string_view test) {
   return series_of(study, test, swept_axis(study));
 }
 
+const dem::Record* first_specimen(const StudyResult& study) {
+  const auto cases = swept(study, test_genesis);
+  return cases.empty() ? nullptr : cases.front().record;
+}
+
 StudyResult of_mineral(const StudyResult& study, std::string_view mineral) {
   StudyResult chosen{study.scenario, {}};
   for (const CaseResult& one : study.cases) {

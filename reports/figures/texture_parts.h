@@ -18,6 +18,8 @@ const Axis& swept_axis(const StudyResult& study);
 extern const Axis confining_axis;
 /// Cases of a test along it.
 std::vector<SeriesCase> swept(const StudyResult& study, std::string_view test);
+/// The first specimen of a scenario that makes them without loading; nullptr when there is none.
+const dem::Record* first_specimen(const StudyResult& study);
 /// The cases of one mineral alone, by its name, or of the rock ("").
 StudyResult of_mineral(const StudyResult& study, std::string_view mineral);
 
