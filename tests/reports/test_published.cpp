@@ -105,6 +105,46 @@ TEST_CASE_FIXTURE(Fixture, "a trend is judged by the sign of its slope") {
   CHECK(one(falls).verdict == Verdict::missed);
 }
 
+TEST_CASE_FIXTURE(Fixture, "a trend over several seeds must stand out of their scatter") {
+  const std::string falls = R"("kind": "trend", "published": "falls", "over": ["1", "2", "3"], "of": {"case": "compression_ar_{}", "result": "ucs_MPa"})";
+  const auto repeated = [&](double scatter) {
+    records.resize(3);
+    for (int ar = 1; ar <= 3; ++ar) {
+      for (int seed = 1; seed <= 4; ++seed) {
+        dem::Record& record = seed == 1 ? records[static_cast<std::size_t>(ar - 1)] : records.emplace_back();
+        record.case_id = "compression_ar_" + std::to_string(ar) + (seed > 1 ? "_seed_" + std::to_string(seed) : "");
+        record.results = {{"ucs_MPa", 200.0 - 5 * ar + scatter * (seed - 2.5)}};
+      }
+    }
+    return one(falls);
+  };
+  const Comparison clear = repeated(0.5), hidden = repeated(20);
+  CHECK(clear.by_interval);
+  CHECK(clear.verdict == Verdict::met);
+  CHECK(hidden.by_interval);
+  CHECK(hidden.verdict == Verdict::missed);
+  CHECK(std::get<std::string>(*hidden.computed) == "lost in scatter");
+}
+
+TEST_CASE_FIXTURE(Fixture, "steps of a trend may have a fraction") {
+  records[1].case_id = "compression_ar_1_5";
+  records[2].case_id = "compression_ar_4";
+  records[0].results[0].second = 10;
+  records[1].results[0].second = 15;
+  records[2].results[0].second = 40;
+  const Comparison row = one(R"("kind": "trend", "published": "rises", "over": ["1", "1_5", "4"], "of": {"case": "compression_ar_{}", "result": "ucs_MPa"})");
+  CHECK(row.verdict == Verdict::met);
+  CHECK(row.detail.find("slope 10 ") != std::string::npos);
+}
+
+TEST_CASE_FIXTURE(Fixture, "numbers of one rock are not set beside another") {
+  const std::string entry = R"({"id": "x", "scenarios": ["ldb_aspect_ratio"], "source": "S", "quantity": "Q", )" +
+                            value("200", R"({"relative": 0.1})") + "}";
+  CHECK(compared(entry, study()).size() == 1);
+  scenario = scenario.with("rock", std::string("my rock"));
+  CHECK(compared(entry, study()).empty());
+}
+
 TEST_CASE_FIXTURE(Fixture, "greater is greater") {
   const std::string a = R"({"case": "compression_ar_1", "result": "ucs_MPa"})";
   const std::string b = R"({"case": "compression_ar_2", "result": "ucs_MPa"})";
