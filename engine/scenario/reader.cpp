@@ -248,7 +248,11 @@ void apply_override(const Override& override, const Declared& declared, ReadScen
   const std::string pattern = pattern_of(override.path);
   const Key* key = declared.find(pattern);
   if (!key) {
-    if (declared.has_table(pattern) || declared.has_table(pattern + "[]")) {
+    if (declared.has_table(pattern + "[]")) {
+      throw InputError(where, override.path, "is a list of tables",
+                       "name one table and key of it, as in " + override.path + "[0].KEY=VALUE");
+    }
+    if (declared.has_table(pattern)) {
       throw InputError(where, override.path, "is a table, not a key", declared.advice_for(pattern + "."));
     }
     throw InputError(where, override.path, "unknown key", declared.advice_for(pattern));
