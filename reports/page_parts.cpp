@@ -91,7 +91,9 @@ std::string shown_result(std::string_view name, double value) {
   if (!std::isfinite(value)) return "–";
   const bool whole = std::floor(value) == value && std::abs(value) < 1e15;
   if (whole) return count(value);
-  if (name.find("strain") != std::string_view::npos && name.find("MPa") == std::string_view::npos) {
+  const bool at_a_strain = name.find("MPa") != std::string_view::npos || name.ends_with("_at_largest_strain") ||
+                           name.ends_with("_at_largest_strain_GPa");
+  if (name.find("strain") != std::string_view::npos && !at_a_strain) {
     return number(100 * value, 3) + " %";
   }
   if (name.find("share") != std::string_view::npos) return percent(value, 1);
