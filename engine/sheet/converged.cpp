@@ -400,7 +400,8 @@ struct ConvergedSolver::Impl {
   Relaxation relax(Sheet& sheet, Forces& forces, std::span<const int> near) {
     ++done.relaxations;
     compute_forces(sheet, forces, settings.threads);
-    watched.insert(watched.end(), near.begin(), near.end());
+    // Kept in order of slots, as after a restart: changes are made in that order.
+    for (const int slot : near) watched.insert(std::lower_bound(watched.begin(), watched.end(), slot), slot);
     Relaxation result;
     int slow = 0, patched = 0;
     bool fresh = false;
