@@ -12,6 +12,7 @@
 
 #include "engine/texture/packing.h"
 #include "tests/support/granite.h"
+#include "tests/support/near.h"
 
 using namespace dem;
 using namespace dem::texture;
@@ -95,8 +96,8 @@ TEST_CASE("a packing is at rest at its pressure, by forces computed anew") {
   for (const Vec3& f : force) unbalanced += std::hypot(f[0], f[1], f[2]);
   CHECK(unbalanced / static_cast<double>(force.size()) <= 1.01e-4 * contact_force);
   const double area = 2 * pi * wall * wall + 2 * pi * wall * top;
-  CHECK(wall_force / area == doctest::Approx(settings.pressure).epsilon(0.01));
-  CHECK(p.pressure == doctest::Approx(wall_force / area).epsilon(1e-6));
+  CHECK(wall_force / area == test::near(settings.pressure).epsilon(0.01));
+  CHECK(p.pressure == test::near(wall_force / area).epsilon(1e-6));
   CHECK(*std::min_element(touches.begin(), touches.end()) >= 3);
   CHECK(deepest < 0.06);  // mean near 0.01 at this pressure
 }
@@ -115,13 +116,13 @@ TEST_CASE("a packing says what it is") {
   }
   CHECK(pairs == p.contacts);
   const auto count = static_cast<double>(p.radius.size());
-  CHECK(p.coordination == doctest::Approx(2 * static_cast<double>(pairs.size()) / count));
-  CHECK(p.porosity == doctest::Approx(1 - solid / volume(settings.vessel)));
+  CHECK(p.coordination == test::near(2 * static_cast<double>(pairs.size()) / count));
+  CHECK(p.porosity == test::near(1 - solid / volume(settings.vessel)));
   // As many as the drawn porosity asks for: mean sphere of diameters uniform in [2 R_min, 2 ratio R_min].
   const double low = settings.radius_min, high = settings.radius_ratio * settings.radius_min;
   const double mean = sphere_volume(1) * (high + low) * (high * high + low * low) / 4;
   const double drawn = (1 - settings.porosity) * volume(settings.vessel) / mean;
-  CHECK(count + p.floaters_removed == doctest::Approx(drawn).epsilon(0.05));
+  CHECK(count + p.floaters_removed == test::near(drawn).epsilon(0.05));
   const auto [least, most] = std::minmax_element(p.radius.begin(), p.radius.end());
   CHECK(*least >= low * p.radius_scale * (1 - 1e-12));
   CHECK(*most <= high * p.radius_scale * (1 + 1e-12));
@@ -203,7 +204,7 @@ TEST_CASE("grain seeds keep the shares and the ranges of their minerals") {
     }
     const double total = filled[0] + filled[1] + filled[2] + filled[3];
     for (std::size_t m = 0; m < minerals.size(); ++m)
-      CHECK(filled[m] / total == doctest::Approx(minerals[m].share).epsilon(1e-6));
+      CHECK(filled[m] / total == test::near(minerals[m].share).epsilon(1e-6));
     CHECK(total / volume(vessel) > 0.5);
   }
 }
@@ -260,7 +261,7 @@ TEST_CASE("an ellipsoid has the volume of its sphere") {
   for (const double ar : {1.0, 2.0, 3.0}) {
     const GrainMap map = grow_grains(points(at), seeds, {ar, 0.6, 0.3});
     const auto inside = std::count(map.growth_round.begin(), map.growth_round.end(), 0);
-    CHECK(static_cast<double>(inside) * h * h * h == doctest::Approx(4.0 / 3.0 * pi * R * R * R).epsilon(0.005));
+    CHECK(static_cast<double>(inside) * h * h * h == test::near(4.0 / 3.0 * pi * R * R * R).epsilon(0.005));
   }
 }
 

@@ -6,6 +6,7 @@
 #include "engine/core/random.h"
 #include "engine/lattice/loading.h"
 #include "engine/lattice/moduli.h"
+#include "tests/support/near.h"
 
 using namespace dem::lattice;
 
@@ -133,7 +134,7 @@ TEST_CASE("a compressional wave along z has the speed of theory") {
     height = now;
   }
   const double speed = block.extent()[2] / (2 * turn);
-  CHECK(speed == doctest::Approx(wave_speed_z(s.micro)).epsilon(0.01));
+  CHECK(speed == test::near(wave_speed_z(s.micro)).epsilon(0.01));
 }
 
 TEST_CASE("gravity is part of the ledger, and the planes carry the weight") {
@@ -144,7 +145,7 @@ TEST_CASE("gravity is part of the ledger, and the planes carry the weight") {
   solver.run(20000);
   const Sample x = solver.sampled_step();
   const double weight = s.micro.mass * s.gravity * static_cast<double>(block.site.size());
-  CHECK(x.force[1] - x.force[0] == doctest::Approx(weight).epsilon(1e-6));
+  CHECK(x.force[1] - x.force[0] == test::near(weight).epsilon(1e-6));
   CHECK(x.gravity < 0);
   CHECK(std::abs(x.imbalance()) < 1e-6 * std::abs(x.gravity));
 }

@@ -9,6 +9,7 @@
 #include "engine/texture/parallel_bond.h"
 #include "engine/texture/properties.h"
 #include "tests/support/granite.h"
+#include "tests/support/near.h"
 
 using namespace dem::texture;
 using T = Triple<double>;
@@ -115,10 +116,10 @@ TEST_CASE("motion of two poses reduces to displacement and rotation of the faces
   const T n = (1 / pair.length) * pair.d, e1 = any_perpendicular(pair.d);
   const Pose<double> two = moved(pair, 1e-9 * n + 2e-9 * e1, 3e-6 * e1 + 4e-6 * n);
   const Motion<double> m = motion(at_rest, two, pair.d, pair.share, pair.length);
-  CHECK(m.gap == doctest::Approx(1e-9).epsilon(1e-5));
-  CHECK(dot(m.u, e1) == doctest::Approx(2e-9).epsilon(1e-5));
-  CHECK(m.theta_n == doctest::Approx(4e-6).epsilon(1e-5));
-  CHECK(dot(m.theta_t, e1) == doctest::Approx(3e-6).epsilon(1e-5));
+  CHECK(m.gap == test::near(1e-9).epsilon(1e-5));
+  CHECK(dot(m.u, e1) == test::near(2e-9).epsilon(1e-5));
+  CHECK(m.theta_n == test::near(4e-6).epsilon(1e-5));
+  CHECK(dot(m.theta_t, e1) == test::near(3e-6).epsilon(1e-5));
 }
 
 TEST_CASE("force and moments are the derivative of the stored energy, at finite motion") {
@@ -179,26 +180,27 @@ TEST_CASE("flat joint: failure loads in pull, shear, bending and torsion") {
   // Small strengths keep the motion small, so that the discrete formulas of first order hold to 1e-6.
   SUBCASE("pull") {
     const Action<double> a = limit(1e-5 * n, {0, 0, 0});
-    CHECK(-dot(a.force, n) == doctest::Approx(g.tensile_strength * area).epsilon(1e-6));
+    CHECK(-dot(a.force, n) == test::near(g.tensile_strength * area).epsilon(1e-6));
   }
   SUBCASE("bending: the element on the axis of e1 at 180 degrees is pulled most when turned about -e2") {
     // theta x rho for rho = -arm e1 and theta = a e2: n component a arm
     const Action<double> a = limit({0, 0, 0}, 0.02 * e2);
     const double couple = root(dot(a.moment_2 - dot(a.moment_2, n) * n, a.moment_2 - dot(a.moment_2, n) * n));
-    CHECK(couple == doctest::Approx(g.tensile_strength * area * arm / 2).epsilon(2e-4));
+    // The formula is of first order: it is off by less than the angle at failure.
+    CHECK(couple == test::near(g.tensile_strength * area * arm / 2).epsilon(fresh.law.opening / arm));
   }
   SUBCASE("torsion") {
     const Action<double> a = limit({0, 0, 0}, 0.2 * n);
-    CHECK(std::abs(dot(a.moment_2, n)) == doctest::Approx(g.cohesion * area * arm).epsilon(2e-4));
+    CHECK(std::abs(dot(a.moment_2, n)) == test::near(g.cohesion * area * arm).epsilon(2e-4));
   }
 }
 
 TEST_CASE("flat joint: the criterion itself, free of geometry") {
-  // With strengths a thousandth of feldspar's the motions at failure are so small that first order is exact to 1e-6.
+  // With strengths 1e-4 of feldspar's the motions at failure are so small that first order is exact to 1e-6.
   const Pair pair;
   ContactGroup g = inside(feldspar(), JointModulus::sum);
-  g.tensile_strength *= 1e-3;
-  g.cohesion *= 1e-3;
+  g.tensile_strength *= 1e-4;
+  g.cohesion *= 1e-4;
   const PartlyBrokenJoint fresh = joint(pair, g);
   const T n = (1 / pair.length) * pair.d, e1 = fresh.zero_angle, e2 = cross(n, e1);
   const double area = pi * pair.r * pair.r;
@@ -213,18 +215,18 @@ TEST_CASE("flat joint: the criterion itself, free of geometry") {
     return advance(probe, at_rest, moved(pair, fixed + low * u, low * angle)).action;
   };
   const T none{0, 0, 0};
-  CHECK(-dot(limit(none, 1e-7 * n, none).force, n) == doctest::Approx(g.tensile_strength * area).epsilon(1e-6));
-  CHECK(-dot(limit(none, 1e-7 * e1, none).force, e1) == doctest::Approx(g.cohesion * area).epsilon(1e-6));
+  CHECK(-dot(limit(none, 1e-7 * n, none).force, n) == test::near(g.tensile_strength * area).epsilon(1e-6));
+  CHECK(-dot(limit(none, 1e-7 * e1, none).force, e1) == test::near(g.cohesion * area).epsilon(1e-6));
   // Under compression the cohesion grows by sigma tan(phi).
   const double push = 1e-10;
   const Action<double> pressed = limit((-push) * n, 1e-7 * e1, none);
   const double kn = g.bond_modulus / pair.both;
   CHECK(-dot(pressed.force, e1) ==
-        doctest::Approx((g.cohesion + kn * push * std::tan(g.friction_angle)) * area).epsilon(1e-6));
+        test::near((g.cohesion + kn * push * std::tan(g.friction_angle)) * area).epsilon(1e-6));
   const double bending = std::abs(dot(limit(none, none, 1e-3 * e2).moment_2, e2));
-  CHECK(bending == doctest::Approx(g.tensile_strength * area * fresh.law.rho / 2).epsilon(1e-6));
+  CHECK(bending == test::near(g.tensile_strength * area * fresh.law.rho / 2).epsilon(1e-6));
   const double torsion = std::abs(dot(limit(none, none, 1e-3 * n).moment_2, n));
-  CHECK(torsion == doctest::Approx(g.cohesion * area * fresh.law.rho).epsilon(1e-6));
+  CHECK(torsion == test::near(g.cohesion * area * fresh.law.rho).epsilon(1e-6));
 }
 
 TEST_CASE("flat joint: partial damage, element by element") {
@@ -239,7 +241,7 @@ TEST_CASE("flat joint: partial damage, element by element") {
   REQUIRE(first.breaks == 1);
   CHECK(first.broke[0].element == 1);
   CHECK_FALSE(first.broke[0].shear);
-  CHECK(first.broke[0].released == doctest::Approx(0.5 * kn * 1.44 * opening * opening).epsilon(1e-3));
+  CHECK(first.broke[0].released == test::near(0.5 * kn * 1.44 * opening * opening).epsilon(angle));  // first order
   CHECK_FALSE(j.element[1].bonded);
   CHECK(j.element[0].bonded);
   CHECK(j.element[2].bonded);
@@ -249,11 +251,11 @@ TEST_CASE("flat joint: partial damage, element by element") {
   const double pull = 0.5 * opening;
   const JointResult pulled = advance(two_left, at_rest, moved(pair, pull * n, {0, 0, 0}));
   CHECK(pulled.breaks == 0);
-  CHECK(-dot(pulled.action.force, n) == doctest::Approx(2 * kn * pull).epsilon(1e-6));
-  CHECK(std::abs(dot(pulled.action.moment_2, e2)) == doctest::Approx(kn * pull * j.law.rho).epsilon(1e-6));
+  CHECK(-dot(pulled.action.force, n) == test::near(2 * kn * pull).epsilon(1e-6));
+  CHECK(std::abs(dot(pulled.action.moment_2, e2)) == test::near(kn * pull * j.law.rho).epsilon(1e-6));
   // In compression the broken element carries again.
   const JointResult pushed = advance(two_left, at_rest, moved(pair, (-pull) * n, {0, 0, 0}));
-  CHECK(dot(pushed.action.force, n) == doctest::Approx(3 * kn * pull).epsilon(1e-6));
+  CHECK(dot(pushed.action.force, n) == test::near(3 * kn * pull).epsilon(1e-6));
   // Pulled further the other two break, and nothing is left in tension.
   const JointResult last = advance(two_left, at_rest, moved(pair, (1.01 * opening) * n, {0, 0, 0}));
   CHECK(last.breaks == 2);
@@ -304,19 +306,19 @@ TEST_CASE("parallel bond: stiffness of both parts, strength without moments, fri
   const auto force = [&](const Motion<double>& m, const T& slip) {
     return action(m, stiffness(bond)).force + linear_part(m, bond, slip, none).force;
   };
-  CHECK(dot(force(pressed, none), n) == doctest::Approx((kbn * area + kn) * s).epsilon(1e-6));
-  CHECK(-dot(force(pulled, none), n) == doctest::Approx(kbn * area * s).epsilon(1e-6));
+  CHECK(dot(force(pressed, none), n) == test::near((kbn * area + kn) * s).epsilon(1e-6));
+  CHECK(-dot(force(pulled, none), n) == test::near(kbn * area * s).epsilon(1e-6));
   // Shear of the linear part is limited by mu times its compression, and what is lost is heat.
   const Motion<double> sheared = at((-s) * n + (10 * s) * e1, none);
   const LinearPart<double> part = linear_part(sheared, bond, none, none);
   const T tangential = part.force - dot(part.force, sheared.n) * sheared.n;
-  CHECK(root(dot(tangential, tangential)) == doctest::Approx(g.friction * kn * -sheared.gap).epsilon(1e-9));
+  CHECK(root(dot(tangential, tangential)) == test::near(g.friction * kn * -sheared.gap).epsilon(1e-9));
   const double before = root(dot(sheared.u, sheared.u)), after = root(dot(part.shear, part.shear));
-  CHECK(part.heat == doctest::Approx(0.5 * g.friction * kn * -sheared.gap * (before - after)).epsilon(1e-9));
+  CHECK(part.heat == test::near(0.5 * g.friction * kn * -sheared.gap * (before - after)).epsilon(1e-9));
   // Bending and twisting by the full disc.
   const Stiffness<double> k = stiffness(bond);
-  CHECK(k.bending == doctest::Approx(kbn * pi * std::pow(pair.r, 4) / 4).epsilon(1e-12));
-  CHECK(k.twisting == doctest::Approx(kbn / g.bond_stiffness_ratio * pi * std::pow(pair.r, 4) / 2).epsilon(1e-12));
+  CHECK(k.bending == test::near(kbn * pi * std::pow(pair.r, 4) / 4).epsilon(1e-12));
+  CHECK(k.twisting == test::near(kbn / g.bond_stiffness_ratio * pi * std::pow(pair.r, 4) / 2).epsilon(1e-12));
   // Strength.
   CHECK_FALSE(breaks(at((0.999999 * bond.opening) * n, none), bond));
   CHECK(breaks(at((1.000001 * bond.opening) * n, none), bond));
@@ -336,16 +338,16 @@ TEST_CASE("material interaction by Eqs. 7 and 8") {
   a.cohesion = 100e6, b.cohesion = 200e6, a.tensile_strength = 20e6, b.tensile_strength = 40e6;
   a.friction_angle = 0.5, b.friction_angle = 0.7;
   const ContactGroup g = between(a, b, {0.9, 2.0, 0.8, 0.25, 0.7, 0.9});
-  CHECK(g.modulus == doctest::Approx(0.9 * 48e9));
-  CHECK(g.bond_modulus == doctest::Approx(0.9 * 45e9));
-  CHECK(g.stiffness_ratio == doctest::Approx(2.0 * (1 * 60 + 2 * 40) / 100.0));
-  CHECK(g.bond_stiffness_ratio == doctest::Approx(2.0 * (1.5 * 90 + 2.5 * 30) / 120.0));
-  CHECK(g.friction == doctest::Approx(0.4));
-  CHECK(g.cohesion == doctest::Approx(0.7 * 150e6));
-  CHECK(g.tensile_strength == doctest::Approx(0.25 * 30e6));
-  CHECK(g.friction_angle == doctest::Approx(0.9 * 0.6));
+  CHECK(g.modulus == test::near(0.9 * 48e9));
+  CHECK(g.bond_modulus == test::near(0.9 * 45e9));
+  CHECK(g.stiffness_ratio == test::near(2.0 * (1 * 60 + 2 * 40) / 100.0));
+  CHECK(g.bond_stiffness_ratio == test::near(2.0 * (1.5 * 90 + 2.5 * 30) / 120.0));
+  CHECK(g.friction == test::near(0.4));
+  CHECK(g.cohesion == test::near(0.7 * 150e6));
+  CHECK(g.tensile_strength == test::near(0.25 * 30e6));
+  CHECK(g.friction_angle == test::near(0.9 * 0.6));
   // A5: alike materials are left alone by coefficients of one.
   const ContactGroup same = between(a, a, {});
-  CHECK(same.modulus == doctest::Approx(a.modulus));
-  CHECK(same.stiffness_ratio == doctest::Approx(a.stiffness_ratio));
+  CHECK(same.modulus == test::near(a.modulus));
+  CHECK(same.stiffness_ratio == test::near(a.stiffness_ratio));
 }
