@@ -33,7 +33,7 @@ extern "C" void on_signal(int number) {
   stop_asked.store(true);
 }
 
-/// The first signal asks the case to write its checkpoint and stop; a second one ends the program at once.
+/// The first signal asks the running cases to write their checkpoints and stop; a second one ends the program at once.
 void listen_to_signals() {
   struct sigaction action = {};
   action.sa_handler = on_signal;
@@ -102,13 +102,14 @@ std::vector<dem::Study> read_studies(const cli::CommandLine& line) {
 dem::StudyListener listener(dem::ProgressPrinter& progress) {
   dem::StudyListener listener;
   listener.begin = [&](const std::string& id, int number, int total, const std::string& why) {
-    progress.begin(id, number, total);
+    progress.begin(id, number);
     progress.say(fmt::format("{} ({}/{}): simulated, {}", id, number, total, why));
   };
-  listener.progress = [&](const dem::Progress& now) { progress.update(now); };
+  listener.progress = [&](const std::string& id, const dem::Progress& now) { progress.update(id, now); };
   listener.note = [&](const std::string& note) { progress.say(note); };
   listener.end = [&](const dem::CaseOutcome& outcome) {
     using dem::CaseState;
+    progress.end(outcome.id);
     switch (outcome.state) {
       case CaseState::kept:
         return progress.say(outcome.id + ": kept, nothing it depends on has changed");
@@ -163,10 +164,13 @@ bool run(const dem::Study& study, const cli::CommandLine& line, dem::ProgressPri
   dem::StudyOptions options;
   options.output = line.output;
   options.threads = line.threads;
+  options.memory =
+      static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
   options.only_case = line.only_case;
   options.report_only = line.report_only;
   options.force = line.force;
   options.stop = &stop_asked;
+  progress.start(static_cast<int>(study.cases.size()));
   const std::vector<dem::CaseOutcome> outcomes = dem::run_study(study, options, listener(progress));
 
   reports::StudyResult result{&study.scenario, {}};
@@ -207,8 +211,8 @@ int run(const cli::CommandLine& line) {
     for (const dem::Study& study : studies) well = run(study, line, progress, canvas) && well;
   } catch (const dem::Interrupted&) {
     progress.clear();
-    std::cerr << "dem-report: stopped; finished cases and the state of this one are kept in " << line.output.string()
-              << ": give the same command to go on\n";
+    std::cerr << "dem-report: stopped; finished cases and the state of those at hand are kept in "
+              << line.output.string() << ": give the same command to go on\n";
     return 128 + signal_received;
   }
   return well ? 0 : 1;

@@ -35,15 +35,16 @@ class Descriptor {
   int fd_;
 };
 
-/// An empty file with a name of its own beside `path`, so that processes that share a folder do not meet.
+/// An empty file with a name of its own beside `path`, so that processes and threads that share a folder do not meet.
+/// (mkstemp() would make it for one user only, and to ask for the mask of the others is to change it for all threads.)
 fs::path reserve(const fs::path& path) {
-  std::string name = (path.parent_path() / ("." + path.filename().string() + ".XXXXXX.part")).string();
-  const Descriptor file(::mkstemps(name.data(), 5));
-  if (file.get() < 0) fail(path, "write", errno);
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  if (::fchmod(file.get(), 0666 & ~mask) != 0) fail(path, "write", errno);
-  return name;
+  const std::string head = "." + path.filename().string() + "." + std::to_string(::getpid()) + "-";
+  for (int number = 0;; ++number) {
+    fs::path part = path.parent_path() / (head + std::to_string(number) + ".part");
+    const Descriptor file(::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (file.get() >= 0) return part;
+    if (errno != EEXIST) fail(path, "write", errno);
+  }
 }
 
 void flush(const fs::path& path, const fs::path& target) {

@@ -111,7 +111,7 @@ class Keeper {
   Keeper(const CaseSpec& spec, RunContext& context) : spec_(spec), context_(context), last_(Clock::now()) {}
 
   void look(const StrengthTest& test) {
-    const bool stop = context_.stop && context_.stop->load();
+    const bool stop = context_.stopped();
     const double since = std::chrono::duration<double>(Clock::now() - last_).count();
     if (!stop && since < context_.checkpoint_seconds) return;
     if (!context_.checkpoint.empty()) save_checkpoint(context_.checkpoint, spec_.content, test.state());
@@ -157,7 +157,7 @@ void run_strength(Record& record, const CaseSpec& spec, const Settings& settings
 
 void run_elastic(Record& record, const Settings& settings, const Block& block, RunContext& context) {
   const auto tick = [&](double share) {
-    if (context.stop && context.stop->load()) throw Interrupted{};
+    if (context.stopped()) throw Interrupted{};
     context.report({"elastic", 0, share, share * settings.strains.back(), std::numeric_limits<double>::quiet_NaN()});
   };
   const auto points = settings.method == ElasticMethod::rest

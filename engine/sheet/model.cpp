@@ -170,7 +170,7 @@ class Run {
     const double done = (state.step - (state.breaking ? 0.5 : 0.0)) / std::max(1, settings_.loading.steps);
     context_.report({"loading", static_cast<std::int64_t>(state.breaks.size()), std::clamp(done, 0.0, 1.0),
                      experiment_->strain(), 1e10 * (wall.xx - wall.yy)});  // k = 1 stands for 10 GPa
-    const bool stop = context_.stop && context_.stop->load();
+    const bool stop = context_.stopped();
     if (!stop && std::chrono::duration<double>(Clock::now() - last_).count() < context_.checkpoint_seconds) return;
     if (!context_.checkpoint.empty()) {
       Kept now{experiment_->snapshot(), {}, total_work(), kept_.fields, kept_.next_snapshot};

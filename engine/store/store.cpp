@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <map>
+#include <mutex>
 #include <stdexcept>
 
 #include "engine/core/errors.h"
@@ -27,6 +28,9 @@ constexpr const char* record_format = "dem-report record 1";
 constexpr const char* table_format = "dem-report tables 1";
 constexpr const char* index_name = "table_index";  // marks a group as a table and keeps the order of tables
 constexpr hsize_t chunk_values = 65536;
+
+/// HDF5 keeps its state in one place and may be built without locks: one thread at a time, whatever the files.
+std::mutex hdf5_mutex;
 
 // ---- writing ----
 
@@ -141,9 +145,10 @@ std::string trailer(std::string_view bytes) { return "\nsha256 " + sha256(bytes)
 /// Runs `fill` on a file in memory and writes it out; HDF5's errors name the path.
 template <class Fill>
 void write(const fs::path& path, Fill fill) {
-  const QuietErrors quiet;
   std::string bytes;
   try {
+    const std::lock_guard alone(hdf5_mutex);
+    const QuietErrors quiet;
     const Handle file = new_file();
     fill(file);
     bytes = image(file);
@@ -157,13 +162,14 @@ void write(const fs::path& path, Fill fill) {
 
 template <class Use>
 auto read(const fs::path& path, Use use) {
-  const QuietErrors quiet;
   const std::string bytes = read_file(path);
   const std::size_t size = bytes.size() - std::min(bytes.size(), trailer("").size());
   if (std::string_view(bytes).substr(size) != trailer(std::string_view(bytes).substr(0, size))) {
     throw EnvironmentError("cannot read " + path.string() + ": it is cut short, damaged or from another program");
   }
   try {
+    const std::lock_guard alone(hdf5_mutex);
+    const QuietErrors quiet;
     const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open it");
     return use(file);
   } catch (const Hdf5Error& failure) {

@@ -1,6 +1,5 @@
 #pragma once
 // What a model gives to the study runner. A case is a pure function from its content to its record.
-#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <span>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "engine/core/record.h"
+#include "engine/core/turns.h"
 #include "engine/scenario/scenario.h"
 
 namespace dem {
@@ -22,13 +22,15 @@ struct Progress {
   double stress = 0;       ///< Pa, in the sense of the test
 };
 
-/// What the runner lends to a case. Nothing here may change the result.
+/// What the runner lends to a case. Nothing here may change the result. Cases run side by side, each in a thread of its own:
+/// they share nothing but the folder of specimens.
 struct RunContext {
   int threads = 1;
   std::filesystem::path specimens;    ///< folder for generated specimens, kept by content
+  Turns* turns = nullptr;             ///< to be taken by path while a specimen is looked for and made; none: alone
   std::filesystem::path checkpoint;   ///< file for the state of a cut case; the case writes it aside, then renames it
   double checkpoint_seconds = 120;    ///< wall time between checkpoints
-  const std::atomic<bool>* stop = nullptr;            ///< set by a signal: write the checkpoint and throw Interrupted
+  std::function<bool()> stopped = [] { return false; };  ///< asked for: write the checkpoint and throw Interrupted
   std::function<void(const Progress&)> report = [](const Progress&) {};
 };
 

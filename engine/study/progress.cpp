@@ -34,35 +34,57 @@ std::string duration_text(double seconds) {
 ProgressPrinter::ProgressPrinter(std::ostream& out, Mode mode, std::function<double()> seconds, int width)
     : out_(out), mode_(mode), seconds_(std::move(seconds)), width_(width) {}
 
-void ProgressPrinter::begin(const std::string& id, int number, int total) {
-  label_ = fmt::format("{} ({}/{})", id, number, total);
-  first_fraction_ = -1;
-  shown_time_ = seconds_();
-  shown_fraction_ = 0;
+void ProgressPrinter::start(int total) {
+  total_ = total;
+  done_ = 0;
+  running_.clear();
 }
 
-void ProgressPrinter::update(const Progress& progress) {
+void ProgressPrinter::begin(const std::string& id, int number) {
+  running_.push_back({.id = id, .number = number, .shown_time = seconds_()});
+}
+
+void ProgressPrinter::end(const std::string& id) {
+  ++done_;
+  std::erase_if(running_, [&](const Running& running) { return running.id == id; });
+}
+
+void ProgressPrinter::update(const std::string& id, const Progress& progress) {
   if (mode_ == Mode::quiet) return;
-  const double now = seconds_();
-  if (first_fraction_ < 0) {
-    first_fraction_ = progress.fraction;
-    first_time_ = now;
-    shown_fraction_ = progress.fraction;
+  const auto running = std::ranges::find(running_, id, &Running::id);
+  if (running == running_.end()) return;
+  running->latest = progress;
+  if (running->first_fraction < 0) {
+    running->first_fraction = running->shown_fraction = progress.fraction;
+    running->first_time = seconds_();
   }
-  const double silent = now - shown_time_;
   if (mode_ == Mode::bar) {
-    if (silent < bar_interval && bar_shown_) return;
-    std::string text = bar(progress.fraction) + line(progress);
-    if (static_cast<int>(text.size()) > width_ - 1) text.resize(static_cast<std::size_t>(std::max(width_ - 1, 0)));
-    out_ << "\r\033[K" << text << std::flush;
-    bar_shown_ = true;
+    draw_bar();
   } else {
-    const bool moved = progress.fraction - shown_fraction_ >= line_share || silent >= line_silence;
-    if (silent < line_interval || !moved) return;
-    out_ << line(progress) << std::endl;
-    shown_fraction_ = progress.fraction;
+    write_line(*running);
   }
-  shown_time_ = now;
+}
+
+void ProgressPrinter::draw_bar() {
+  const double now = seconds_();
+  if (now - bar_time_ < bar_interval && bar_shown_) return;
+  double cases = running_.size() == 1 ? 0 : done_;
+  for (const Running& running : running_) cases += running.latest.fraction;
+  std::string text = running_.size() == 1 ? bar(cases) + line(running_[0]) : bar(cases / total_) + study_line();
+  if (static_cast<int>(text.size()) > width_ - 1) text.resize(static_cast<std::size_t>(std::max(width_ - 1, 0)));
+  out_ << "\r\033[K" << text << std::flush;
+  bar_shown_ = true;
+  bar_time_ = now;
+}
+
+void ProgressPrinter::write_line(Running& running) {
+  const double now = seconds_();
+  const double silent = now - running.shown_time;
+  const bool moved = running.latest.fraction - running.shown_fraction >= line_share || silent >= line_silence;
+  if (silent < line_interval || !moved) return;
+  out_ << line(running) << std::endl;
+  running.shown_fraction = running.latest.fraction;
+  running.shown_time = now;
 }
 
 void ProgressPrinter::say(const std::string& text) {
@@ -76,23 +98,35 @@ void ProgressPrinter::clear() {
   bar_shown_ = false;
 }
 
-std::string ProgressPrinter::line(const Progress& progress) const {
-  std::string text = fmt::format("{} {} {:.0f} %", label_, progress.stage, 100 * progress.fraction);
+std::string ProgressPrinter::line(const Running& running) const {
+  const Progress& progress = running.latest;
+  std::string text = fmt::format("{} ({}/{}) {} {:.0f} %", running.id, running.number, total_, progress.stage,
+                                 100 * progress.fraction);
   if (progress.step > 0) text += fmt::format(", step {}", progress.step);
   if (std::isfinite(progress.strain) && progress.strain != 0)
     text += fmt::format(", strain {:.3g} %", 100 * progress.strain);
   if (std::isfinite(progress.stress) && progress.stress != 0)
     text += fmt::format(", stress {:.4g} MPa", 1e-6 * progress.stress);
-  const double left = seconds_left(progress);
+  const double left = seconds_left(running);
   if (std::isfinite(left)) text += ", " + duration_text(left) + " left";
   return text;
 }
 
-double ProgressPrinter::seconds_left(const Progress& progress) const {
-  const double done = progress.fraction - first_fraction_;
-  const double taken = seconds_() - first_time_;
-  if (first_fraction_ < 0 || done < 0.01 || taken < 1) return std::numeric_limits<double>::quiet_NaN();
-  return taken * std::max(1 - progress.fraction, 0.0) / done;
+std::string ProgressPrinter::study_line() const {
+  std::string text = fmt::format("{}/{} done", done_, total_);
+  for (const Running& running : running_) {
+    text += fmt::format(", {} {:.0f} %", running.id, 100 * running.latest.fraction);
+    const double left = seconds_left(running);
+    if (std::isfinite(left)) text += " (" + duration_text(left) + " left)";
+  }
+  return text;
+}
+
+double ProgressPrinter::seconds_left(const Running& running) const {
+  const double done = running.latest.fraction - running.first_fraction;
+  const double taken = seconds_() - running.first_time;
+  if (running.first_fraction < 0 || done < 0.01 || taken < 1) return std::numeric_limits<double>::quiet_NaN();
+  return taken * std::max(1 - running.latest.fraction, 0.0) / done;
 }
 
 }  // namespace dem

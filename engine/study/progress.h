@@ -3,6 +3,7 @@
 #include <functional>
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 #include "engine/study/model.h"
 
@@ -18,27 +19,41 @@ class ProgressPrinter {
   ProgressPrinter(const ProgressPrinter&) = delete;
   ProgressPrinter& operator=(const ProgressPrinter&) = delete;
 
-  void begin(const std::string& id, int number, int total);  ///< a case starts
-  void update(const Progress& progress);                     ///< may be called at any rate
-  void say(const std::string& line);                         ///< a whole line, the bar out of its way
+  void start(int total);                                         ///< a study of so many cases starts
+  void begin(const std::string& id, int number);                 ///< a case starts; others may be running
+  void update(const std::string& id, const Progress& progress);  ///< of a case that has begun; at any rate
+  void end(const std::string& id);                               ///< a case is done, whether it has begun or not
+  void say(const std::string& line);                             ///< a whole line, the bar out of its way
 
   void clear();  ///< takes the bar away, for what others print
 
-  /// "compression_ar_2 (3/6) loading 42 %, step 16800, strain 0.213 %, stress 151.2 MPa, 1 min 23 s left"
-  [[nodiscard]] std::string line(const Progress& progress) const;
-
  private:
-  [[nodiscard]] double seconds_left(const Progress& progress) const;  ///< NaN: no idea yet
+  struct Running {
+    std::string id;
+    int number = 0;
+    double first_time = 0;       ///< of its first report
+    double first_fraction = -1;  ///< what was done by then (a resumed case does not start at 0); -1: no report yet
+    double shown_time = 0;       ///< of its last line in the log
+    double shown_fraction = 0;
+    Progress latest{};
+  };
+
+  /// "compression_ar_2 (3/6) loading 42 %, step 16800, strain 0.213 %, stress 151.2 MPa, 1 min 23 s left"
+  [[nodiscard]] std::string line(const Running& running) const;
+  /// "2/6 done, compression_ar_2 42 % (1 min 23 s left), compression_ar_3 17 %"
+  [[nodiscard]] std::string study_line() const;
+  [[nodiscard]] double seconds_left(const Running& running) const;  ///< NaN: no idea yet
+  void draw_bar();
+  void write_line(Running& running);
 
   std::ostream& out_;
   Mode mode_;
   std::function<double()> seconds_;
   int width_;
-  std::string label_;
-  double first_time_ = 0;       ///< of the first report of this case
-  double first_fraction_ = -1;  ///< what was done by then (a resumed case does not start at 0); -1: no report yet
-  double shown_time_ = 0;
-  double shown_fraction_ = 0;
+  int total_ = 0;
+  int done_ = 0;
+  std::vector<Running> running_;  // in the order of their beginning
+  double bar_time_ = 0;
   bool bar_shown_ = false;
 };
 

@@ -1,8 +1,13 @@
 #include "engine/study/study.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <exception>
+#include <mutex>
 #include <set>
+#include <system_error>
+#include <thread>
 
 #include "engine/core/archive.h"
 #include "engine/core/errors.h"
@@ -14,6 +19,9 @@ namespace dem {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// No case of the shipped scenarios needs more: the sheet of 500 x 500 particles 1.6 GiB, all others less than 1 GiB.
+constexpr std::uint64_t memory_of_a_case = std::uint64_t{2} << 30;
 
 /// The record of a case on the disk.
 struct OnDisk {
@@ -33,49 +41,139 @@ OnDisk look_up(const CaseSpec& spec, const fs::path& path, std::span<const Key> 
   }
 }
 
+bool is_current(const CaseSpec& spec, const fs::path& path) {
+  try {
+    std::error_code error;
+    return fs::exists(path, error) && read_content(path) == spec.content;
+  } catch (const EnvironmentError&) {
+    return false;
+  }
+}
+
+/// Runs the cases in up to so many threads as are given. Each worker takes the next case in order; what it does with
+/// the case does not depend on the others.
 class Runner {
  public:
   Runner(const Study& study, const StudyOptions& options, const StudyListener& listener)
-      : study_(study), options_(options), listener_(listener), folder_(options.output / study.folder()) {}
+      : study_(study),
+        options_(options),
+        listener_(listener),
+        folder_(options.output / study.folder()),
+        outcomes_(study.cases.size()),
+        waiting_(study.cases.size(), false),
+        free_threads_(std::max(options.threads, 1)) {}
 
   std::vector<CaseOutcome> run() {
-    std::vector<CaseOutcome> outcomes;
-    for (const CaseSpec& spec : study_.cases) {
-      const bool asked = options_.only_case.empty() || options_.only_case == spec.id;
-      const fs::path path = folder_ / "cases" / spec.id / "results.h5";
-      OnDisk found = look_up(spec, path, study_.model->keys());
-      CaseOutcome outcome{spec.id, CaseState::kept, std::move(found.current), {}, 0};
-      if (asked && !options_.report_only && (options_.force || !outcome.record)) {
-        simulate(spec, path, outcome.record ? "asked for by --force" : found.why, static_cast<int>(outcomes.size()) + 1,
-                 outcome);
-      } else if (!outcome.record) {
-        outcome.state = asked ? CaseState::missing : CaseState::left_out;
-        if (asked) outcome.error = "There is no record to draw from (" + found.why + "); run it without --report-only.";
+    const int places = count_places();
+    free_places_ = places;
+    {
+      std::vector<std::jthread> others;
+      try {
+        for (int i = 1; i < places; ++i) others.emplace_back([this] { work(); });
+      } catch (const std::system_error&) {
+        // The machine has no more threads: fewer will do.
       }
-      listener_.end(outcome);
-      outcomes.push_back(std::move(outcome));
+      work();
     }
-    return outcomes;
+    if (error_) std::rethrow_exception(error_);
+    if (interrupted_) throw Interrupted{};
+    return std::move(outcomes_);
   }
 
  private:
-  void simulate(const CaseSpec& spec, const fs::path& path, std::string why, int number, CaseOutcome& outcome) {
-    if (options_.stop && options_.stop->load()) throw Interrupted{};
+  [[nodiscard]] fs::path path_of(const CaseSpec& spec) const { return folder_ / "cases" / spec.id / "results.h5"; }
+  [[nodiscard]] bool asked(const CaseSpec& spec) const {
+    return options_.only_case.empty() || options_.only_case == spec.id;
+  }
+  [[nodiscard]] bool may_simulate(const CaseSpec& spec) const { return asked(spec) && !options_.report_only; }
+  [[nodiscard]] bool stopped() const { return given_up_ || (options_.stop && options_.stop->load()); }
+
+  /// How many cases may run at a time; marks those that wait for it.
+  int count_places() {
+    if (free_threads_ == 1) return 1;  // nothing to share
+    for (std::size_t i = 0; i < study_.cases.size(); ++i) {
+      const CaseSpec& spec = study_.cases[i];
+      waiting_[i] = may_simulate(spec) && (options_.force || !is_current(spec, path_of(spec)));
+    }
+    std::uint64_t places = std::min<std::uint64_t>(free_threads_, std::ranges::count(waiting_, true));
+    if (options_.memory > 0) places = std::min(places, options_.memory / memory_of_a_case);
+    return static_cast<int>(std::max<std::uint64_t>(places, 1));
+  }
+
+  /// What a thread of the runner does. An error ends the study; the cases of the other threads are asked to stop.
+  void work() {
+    try {
+      for (std::size_t at = next_++; at < study_.cases.size() && !given_up_; at = next_++) look_at(at);
+    } catch (const Interrupted&) {
+      interrupted_ = true;
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!error_) error_ = std::current_exception();
+      given_up_ = true;
+    }
+  }
+
+  void look_at(std::size_t at) {
+    const CaseSpec& spec = study_.cases[at];
+    const fs::path path = path_of(spec);
+    OnDisk found = look_up(spec, path, study_.model->keys());
+    CaseOutcome outcome{spec.id, CaseState::kept, std::move(found.current), {}, 0};
+    if (may_simulate(spec) && (options_.force || !outcome.record)) {
+      simulate(at, path, outcome.record ? "asked for by --force" : found.why, outcome);
+    } else if (!outcome.record) {
+      outcome.state = asked(spec) ? CaseState::missing : CaseState::left_out;
+      if (asked(spec))
+        outcome.error = "There is no record to draw from (" + found.why + "); run it without --report-only.";
+    }
+    const std::lock_guard lock(mutex_);
+    waiting_[at] = false;
+    listener_.end(outcome);
+    outcomes_[at] = std::move(outcome);
+  }
+
+  /// Takes a place and its share of the threads: those that are free are shared by the cases that can begin now. The
+  /// last cases of a study so have several each when there are fewer of them than threads.
+  int begin(std::size_t at) {
+    const std::lock_guard lock(mutex_);
+    const auto more = static_cast<int>(std::ranges::count(waiting_, true)) + (waiting_[at] ? 0 : 1);
+    const int threads = std::max(free_threads_ / std::clamp(more, 1, std::max(free_places_, 1)), 1);
+    waiting_[at] = false;
+    --free_places_;
+    free_threads_ -= threads;
+    return threads;
+  }
+
+  void end(int threads) {
+    const std::lock_guard lock(mutex_);
+    ++free_places_;
+    free_threads_ += threads;
+  }
+
+  void simulate(std::size_t at, const fs::path& path, std::string why, CaseOutcome& outcome) {
+    if (stopped()) throw Interrupted{};
+    const CaseSpec& spec = study_.cases[at];
     const fs::path checkpoint = path.parent_path() / "checkpoint";
     make_folder(path.parent_path());
     remove_leftovers(path.parent_path());
     prepare_checkpoint(checkpoint, spec, why);
-    listener_.begin(spec.id, number, static_cast<int>(study_.cases.size()), why);
 
     RunContext context;
-    context.threads = options_.threads;
+    context.threads = begin(at);
     context.specimens = options_.output / "specimens";
+    context.turns = &turns_;
     context.checkpoint = checkpoint;
     context.checkpoint_seconds = options_.checkpoint_seconds;
-    context.stop = options_.stop;
-    context.report = listener_.progress;
+    context.stopped = [this] { return stopped(); };
+    context.report = [this, &spec](const Progress& progress) {
+      const std::lock_guard lock(mutex_);
+      listener_.progress(spec.id, progress);
+    };
     outcome.record.reset();
     const auto start = std::chrono::steady_clock::now();
+    {
+      const std::lock_guard lock(mutex_);
+      listener_.begin(spec.id, static_cast<int>(at) + 1, static_cast<int>(study_.cases.size()), why);
+    }
     try {
       outcome.record = complete(study_.model->run(spec, context), spec);
       outcome.state = CaseState::simulated;
@@ -87,14 +185,18 @@ class Runner {
       outcome.error = failure.what();
     }
     outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    end(context.threads);
   }
 
   /// Leaves a checkpoint only when the case can go on from it, and says so in `why`.
-  void prepare_checkpoint(const fs::path& path, const CaseSpec& spec, std::string& why) const {
+  void prepare_checkpoint(const fs::path& path, const CaseSpec& spec, std::string& why) {
     std::string bytes;
     CheckpointLoad load;
     if (!options_.force) load = read_checkpoint(path, spec.content, bytes);
-    if (!load.note.empty()) listener_.note(load.note);
+    if (!load.note.empty()) {
+      const std::lock_guard lock(mutex_);
+      listener_.note(load.note);
+    }
     if (load.loaded) {
       why += "; goes on from its checkpoint";
     } else {
@@ -119,6 +221,16 @@ class Runner {
   const StudyOptions& options_;
   const StudyListener& listener_;
   fs::path folder_;
+  Turns turns_;  // of specimens
+  std::atomic<std::size_t> next_ = 0;
+  std::atomic<bool> given_up_ = false, interrupted_ = false;
+
+  std::mutex mutex_;  // of what follows, and of what is told to the listener
+  std::vector<CaseOutcome> outcomes_;
+  std::vector<bool> waiting_;  // cases that have to be simulated and have not begun
+  int free_places_ = 1;
+  int free_threads_;
+  std::exception_ptr error_;
 };
 
 std::vector<std::string> case_ids(const Study& study) {

@@ -2,6 +2,7 @@
 // The cases of a scenario, run into out/NAME.SCALE/cases/CASE/results.h5. A finished case is kept as long as its
 // content key is the same; a cut one goes on from its checkpoint; a failed one does not stop the others.
 #include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -38,8 +39,10 @@ void check_case(const Study& study, const std::string& id);
 
 struct StudyOptions {
   std::filesystem::path output = "out";
-  int threads = 1;
-  std::string only_case;     ///< run only this one; the others are taken when their record is current
+  int threads = 1;  ///< for all cases together: they run side by side, with one each while there are enough
+  std::uint64_t memory =
+      0;                  ///< bytes of the machine: at most one case for every 2 GiB runs at a time; 0: no such bound
+  std::string only_case;  ///< run only this one; the others are taken when their record is current
   bool report_only = false;  ///< simulate nothing
   bool force = false;        ///< simulate also what has a current record, from the start
   double checkpoint_seconds = 120;
@@ -62,19 +65,21 @@ struct CaseOutcome {
   double seconds = 0;  ///< wall time of the simulation
 };
 
-/// What the runner tells while it works; the program prints it.
+/// What the runner tells while it works; the program prints it. Called from the threads of the cases, never twice at a
+/// time.
 struct StudyListener {
   /// A case begins (number from 1): "no record", "seed: 1 -> 2", "goes on from its checkpoint".
   std::function<void(const std::string& id, int number, int total, const std::string& why)> begin =
       [](const std::string&, int, int, const std::string&) {};
-  std::function<void(const Progress&)> progress = [](const Progress&) {};
+  std::function<void(const std::string& id, const Progress&)> progress = [](const std::string&, const Progress&) {};
   /// It is done, whatever its state.
   std::function<void(const CaseOutcome&)> end = [](const CaseOutcome&) {};
   std::function<void(const std::string&)> note = [](const std::string&) {};
 };
 
-/// The outcomes in report order. Throws Interrupted when stopped (the case at hand has left its checkpoint), InputError
-/// as check_case(), EnvironmentError when a file cannot be written.
+/// The outcomes in report order; cases begin in that order, and end as they end. Throws Interrupted when stopped (the
+/// cases at hand have left their checkpoints), InputError as check_case(), EnvironmentError when a file cannot be
+/// written (the other cases at hand are stopped).
 std::vector<CaseOutcome> run_study(const Study& study, const StudyOptions& options, const StudyListener& listener);
 
 /// Why a record of content `before` does not serve `now`: the lines that differ, quantities in their declared unit:

@@ -111,10 +111,11 @@ bool load(const std::filesystem::path& path, const std::string& content, Part& p
 }
 
 template <class Make>
-auto kept(const std::filesystem::path& folder, const std::string& content, Make make) {
+auto kept(const RunContext& context, const std::string& content, Make make) {
   using Part = decltype(make());
-  if (folder.empty()) return make();
-  const std::filesystem::path path = folder / (sha256(content).substr(0, 16) + ".h5");
+  if (context.specimens.empty()) return make();
+  const std::filesystem::path path = context.specimens / (sha256(content).substr(0, 16) + ".h5");
+  const auto turn = context.turns ? context.turns->take(path) : std::unique_lock<std::mutex>();
   Part part;
   if (load(path, content, part)) return part;
   part = make();
@@ -127,8 +128,8 @@ auto kept(const std::filesystem::path& folder, const std::string& content, Make 
 Genesis genesis(const PackingSettings& settings, const std::vector<MineralGrains>& minerals, double seed_scale,
                 RunContext& context) {
   const Cylinder& vessel = settings.vessel;
-  return {kept(context.specimens, content_of(settings), [&] { return pack(settings, context); }),
-          kept(context.specimens, content_of(vessel, minerals, seed_scale, settings.seed),
+  return {kept(context, content_of(settings), [&] { return pack(settings, context); }),
+          kept(context, content_of(vessel, minerals, seed_scale, settings.seed),
                [&] { return seed_grains(vessel, minerals, seed_scale, settings.seed, context); })};
 }
 

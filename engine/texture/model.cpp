@@ -151,7 +151,7 @@ LoadingTest load(const Specimen& specimen, const Settings& settings, const CaseS
   auto saved = Clock::now();
   const bool compression = settings.test == TestKind::compression;
   while (!test.ended()) {
-    const bool stop = context.stop != nullptr && *context.stop;
+    const bool stop = context.stopped();
     const bool due = std::chrono::duration<double>(Clock::now() - saved).count() > context.checkpoint_seconds;
     if ((stop || due) && !context.checkpoint.empty()) {
       save_checkpoint(context.checkpoint, spec.content, test);

@@ -83,7 +83,7 @@ class Settling {
  private:
   void relax(double unbalance, double reach) {
     const bool at_rest = pile_.relax(unbalance, reach, max_steps, [this](const PileState&) {
-      if (context_.stop != nullptr && *context_.stop) throw Interrupted{};
+      if (context_.stopped()) throw Interrupted{};
       Progress now;
       now.stage = "packing";
       now.step = pile_.steps();

@@ -29,7 +29,7 @@ struct Settled {
 };
 
 /// Relaxes a cloud without friction, then scales all radii together until the wall pressure meets the goal.
-/// Throws CaseError when that does not come about, Interrupted when context.stop is set.
+/// Throws CaseError when that does not come about, Interrupted when context.stopped().
 Settled settle(const Cylinder& vessel, std::vector<Sphere> cloud, const SettleGoal& goal, RunContext& context);
 
 /// Indices of the spheres in an order that keeps neighbours near in memory: slabs of three mean diameters from the

@@ -39,10 +39,11 @@ test::Outcome run(const fs::path& folder, const Texts& more = {}, const test::Wh
 fs::path output(const fs::path& folder) { return folder / "out" / "ldb_aspect_ratio.smoke"; }
 fs::path record(const fs::path& folder) { return output(folder) / "cases" / id / "results.h5"; }
 
-/// The exit code that the checks of the last run call for: 1 when one of them does not hold.
-int due_code(const fs::path& folder) {
-  return has(dem::read_file(output(folder) / "summary.json"), "\"held\": false") ? 1 : 0;
+/// The exit code that the checks of a study call for: 1 when one of them does not hold.
+int due_code_of(const fs::path& study) {
+  return has(dem::read_file(study / "summary.json"), "\"held\": false") ? 1 : 0;
 }
+int due_code(const fs::path& folder) { return due_code_of(output(folder)); }
 
 /// The record of an uncut run with one thread, made once for all tests of this file.
 const std::string& uncut_record() {
@@ -134,6 +135,51 @@ TEST_CASE("a run that is stopped by a signal says so, and goes on to the same by
     CHECK(dem::read_file(record(folder.path())) == uncut_record());
     CHECK_FALSE(fs::exists(record(folder.path()).parent_path() / "checkpoint"));
   }
+}
+
+TEST_CASE("cases side by side: the same summary for any number of threads, and a signal keeps the state of all") {
+  const auto run_two = [](const fs::path& folder, const std::string& threads, const test::WhileRunning& meanwhile = {}) {
+    return test::run_program(folder,
+                             {DEM_SOURCE_DIR "/scenarios/ldb_dip_angle.toml", "--scale", "smoke", "--set",
+                              "tests=[\"direct_tension\"]", "--set", "sweep.dip=[\"0 deg\", \"90 deg\"]", "--set",
+                              "direct_tension.rate=1e-7", "--only", "stress_strain", "--format", "html", "--threads",
+                              threads},
+                             meanwhile);
+  };
+  const fs::path study = fs::path("out") / "ldb_dip_angle.smoke";
+  std::string summary, page;
+  for (const char* threads : {"1", "2", "3"}) {
+    CAPTURE(threads);
+    const test::Scratch folder;
+    const test::Outcome outcome = run_two(folder.path(), threads);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == due_code_of(folder.path() / study));
+    CHECK(has(outcome.err, "direct_tension_ar_2_dip_0 (1/2): simulated"));
+    CHECK(has(outcome.err, "direct_tension_ar_2_dip_90 (2/2): simulated"));
+    CHECK(whole_files(folder.path() / "out" / "specimens") == 2);
+    if (summary.empty()) {
+      summary = dem::read_file(folder.path() / study / "summary.json");
+      page = dem::read_file(folder.path() / study / "report.html");
+    }
+    CHECK(dem::read_file(folder.path() / study / "summary.json") == summary);
+    CHECK(dem::read_file(folder.path() / study / "report.html") == page);
+  }
+
+  const test::Scratch folder;
+  const test::Outcome cut = run_two(folder.path(), "2", signalled(folder.path(), SIGTERM));
+  CAPTURE(cut.err);
+  REQUIRE(cut.code == 128 + SIGTERM);
+  const fs::path cases = folder.path() / study / "cases";
+  for (const char* one : {"direct_tension_ar_2_dip_0", "direct_tension_ar_2_dip_90"}) {
+    CAPTURE(one);
+    CHECK(fs::exists(cases / one / "checkpoint"));
+    CHECK_FALSE(fs::exists(cases / one / "results.h5"));
+  }
+  const test::Outcome resumed = run_two(folder.path(), "2");
+  CHECK(resumed.code == due_code_of(folder.path() / study));
+  CHECK(has(resumed.err, "direct_tension_ar_2_dip_0 (1/2): simulated, no record; goes on from its checkpoint"));
+  CHECK(has(resumed.err, "direct_tension_ar_2_dip_90 (2/2): simulated, no record; goes on from its checkpoint"));
+  CHECK(dem::read_file(folder.path() / study / "summary.json") == summary);
 }
 
 TEST_CASE("a run that is killed leaves nothing half-written, and the next one the same bytes") {

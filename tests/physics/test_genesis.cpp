@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <thread>
 
 #include "engine/texture/packing.h"
 #include "tests/support/granite.h"
@@ -172,9 +173,8 @@ TEST_CASE("the seed decides, and it alone") {
 }
 
 TEST_CASE("a packing that is asked to stop stops") {
-  const std::atomic<bool> stop = true;
   RunContext context;
-  context.stop = &stop;
+  context.stopped = [] { return true; };
   CHECK_THROWS_AS(pack(dem_test::granite_packing(small_diameter), context), Interrupted);
 }
 
@@ -412,6 +412,37 @@ TEST_CASE("a specimen is kept by its content, and made again when its file is da
 
   genesis(settings, minerals, 0.9, context);  // other seeds, the same packing
   CHECK(files().size() == 3);
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("two cases that run side by side and need the same specimen make it once") {
+  const std::filesystem::path folder = fresh_folder("genesis_shared");
+  const PackingSettings settings = dem_test::granite_packing(5e-3);
+  const std::vector<MineralGrains> minerals{{1, 1e-3, 2e-3}};
+  std::atomic<int> steps = 0;
+  const auto make = [&](Turns& turns) {
+    RunContext context;
+    context.specimens = folder;
+    context.turns = &turns;
+    context.report = [&](const Progress&) { ++steps; };
+    return genesis(settings, minerals, 1, context);
+  };
+  Turns turns;
+  const Genesis alone = make(turns);
+  const int once = steps;
+  std::filesystem::remove_all(folder);
+
+  steps = 0;
+  std::vector<Genesis> made(3);
+  {
+    std::vector<std::jthread> cases;
+    for (Genesis& one : made) cases.emplace_back([&] { one = make(turns); });
+  }
+  CHECK(steps == once);
+  for (const Genesis& one : made) {
+    CHECK(same(one.packing, alone.packing));
+    CHECK(one.seeds.position == alone.seeds.position);
+  }
   std::filesystem::remove_all(folder);
 }
 

@@ -1,7 +1,6 @@
 // The sheet as the study runner sees it: scenarios, cases, records, runs that are cut and taken up again.
 #include <doctest/doctest.h>
 
-#include <atomic>
 #include <filesystem>
 #include <fstream>
 
@@ -106,8 +105,8 @@ TEST_CASE("a run that is stopped goes on from its checkpoint to the same record"
   const dem::Record whole = run(spec);
   dem::RunContext context;
   context.checkpoint = scratch / "state";
-  std::atomic<bool> stop = false;
-  context.stop = &stop;
+  bool stop = false;
+  context.stopped = [&] { return stop; };
   int calls = 0;
   context.report = [&](const dem::Progress&) { stop = ++calls == 40; };
   CHECK_THROWS_AS((void)model().run(spec, context), dem::Interrupted);

@@ -1,9 +1,12 @@
 // The runner, with a model that counts instead of simulating.
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <fstream>
 #include <map>
+#include <mutex>
 #include <sstream>
+#include <thread>
 
 #include "engine/core/archive.h"
 #include "engine/core/errors.h"
@@ -23,6 +26,10 @@ std::span<const dem::Key> counter_keys() {
       {.path = "load.stress", .unit = "MPa", .low = 0, .high = 1000, .standard = "\"100 MPa\"", .help = "of the test"},
       {.path = "load.steps", .type = dem::KeyType::integer, .low = 1, .standard = "10", .help = "to count"},
       {.path = "load.fails_at", .type = dem::KeyType::integer, .standard = "-1", .help = "value whose case fails"},
+      {.path = "load.breaks_at",
+       .type = dem::KeyType::integer,
+       .standard = "-1",
+       .help = "value whose case meets a full disk"},
       {.path = "load.value", .standard = "0", .help = "of a case"},
       {.path = "sweep.value", .type = dem::KeyType::reals, .standard = "[1, 2, 3]", .help = "one case each"},
   };
@@ -55,18 +62,62 @@ struct Counter {
 /// Asks itself to stop at a step, as a signal would.
 std::atomic<bool> stop = false;
 std::int64_t stop_at = -1;
-std::int64_t first_step_run = -1;
+
+/// What the cases were seen to do.
+struct Seen {
+  std::mutex mutex;
+  std::map<std::string, std::int64_t> first_step;  ///< at which a case began or went on
+  std::map<std::string, int> threads;              ///< that it was lent
+  int inside = 0, most_inside = 0;                 ///< cases that run at a time
+};
+Seen seen;
+int meet = 1;  ///< a case goes on only when so many have begun
+
+/// A case waits until so many have begun together, or a while in vain.
+bool met() {
+  for (int i = 0; i < 10000; ++i) {
+    {
+      const std::lock_guard lock(seen.mutex);
+      if (seen.most_inside >= meet) return true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
+}
+
+class Inside {
+ public:
+  Inside(const std::string& id, std::int64_t first_step, int threads) {
+    const std::lock_guard lock(seen.mutex);
+    seen.first_step[id] = first_step;
+    seen.threads[id] = threads;
+    seen.most_inside = std::max(seen.most_inside, ++seen.inside);
+  }
+  Inside(const Inside&) = delete;
+  Inside& operator=(const Inside&) = delete;
+  ~Inside() {
+    const std::lock_guard lock(seen.mutex);
+    --seen.inside;
+  }
+};
 
 dem::Record counter_run(const dem::CaseSpec& spec, dem::RunContext& context) {
   const double value = spec.scenario.real("load.value");
-  if (value == spec.scenario.real("load.fails_at")) throw dem::CaseError("the counter cannot be packed");
   Counter state;
   dem::load_checkpoint(context.checkpoint, spec.content, state);
-  first_step_run = state.step;
+  const Inside inside(spec.id, state.step, context.threads);
+  if (!met()) throw std::runtime_error("the cases did not run side by side");
+  if (value == spec.scenario.real("load.fails_at")) throw dem::CaseError("the counter cannot be packed");
+  const double breaks_at = spec.scenario.real("load.breaks_at");
+  if (value == breaks_at) throw dem::EnvironmentError("the disk is full");
   const std::int64_t steps = spec.scenario.integer("load.steps");
   for (; state.step < steps; ++state.step) {
     if (state.step == stop_at) stop = true;
-    if (context.stop && context.stop->load()) {
+    // Beside a case that breaks, the others are still at work when it does.
+    for (int i = 0; breaks_at >= 0 && state.step == 5 && i < 10000 && !context.stopped(); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    if (context.stopped()) {
       dem::save_checkpoint(context.checkpoint, spec.content, state);
       throw dem::Interrupted{};
     }
@@ -96,6 +147,7 @@ struct Bench {
   Bench() {
     stop = false;
     stop_at = -1;
+    meet = 1;
     options.output = folder / "out";
     options.stop = &stop;
     std::ofstream(folder / "study.toml") << "model = \"counter\"\n[scales.draft]\n";
@@ -104,6 +156,9 @@ struct Bench {
   std::vector<dem::CaseOutcome> run(const std::vector<std::string>& overrides = {}) {
     why.clear();
     notes.clear();
+    seen.first_step.clear();
+    seen.threads.clear();
+    seen.inside = seen.most_inside = 0;
     const dem::Study study = dem::read_study(folder / "study.toml", "draft", overrides, models);
     dem::StudyListener listener;
     listener.begin = [&](const std::string& id, int, int, const std::string& reason) { why[id] = reason; };
@@ -213,30 +268,120 @@ TEST_CASE("a case that is stopped goes on from its checkpoint to the same bytes"
 
   SUBCASE("goes on") {
     bench.run();
-    CHECK(first_step_run == 4);
+    CHECK(seen.first_step["count_2"] == 4);
     CHECK(bench.why.at("count_2") == "no record; goes on from its checkpoint");
     CHECK(dem::read_file(bench.record("count_2")) == expected);
   }
   SUBCASE("damaged: from the start, and said") {
     dem::write_file(checkpoint, dem::read_file(checkpoint).substr(0, 120));
     bench.run();
-    CHECK(first_step_run == 0);
+    CHECK(seen.first_step["count_2"] == 0);
     REQUIRE(bench.notes.size() == 1);
     CHECK(bench.notes[0].find("is damaged") != std::string::npos);
     CHECK(dem::read_file(bench.record("count_2")) == expected);
   }
   SUBCASE("of another input: from the start, and said") {
     bench.run({"load.steps=7"});
-    CHECK(first_step_run == 0);
+    CHECK(seen.first_step["count_2"] == 0);
     REQUIRE(bench.notes.size() == 1);
     CHECK(bench.notes[0].find("belongs to another input") != std::string::npos);
   }
   SUBCASE("--force: from the start") {
     bench.options.force = true;
     bench.run();
-    CHECK(first_step_run == 0);
+    CHECK(seen.first_step["count_2"] == 0);
   }
   CHECK_FALSE(fs::exists(checkpoint));
+}
+
+TEST_CASE("cases run side by side, to the same bytes, and are told in report order") {
+  Bench alone;
+  const auto expected = alone.run();
+  for (const int threads : {2, 3, 8}) {
+    CAPTURE(threads);
+    Bench bench;
+    bench.options.threads = threads;
+    meet = std::min(threads, 3);
+    const auto outcomes = bench.run();
+    REQUIRE(states(outcomes) == std::vector{simulated, simulated, simulated});
+    CHECK(seen.most_inside == meet);
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+      CHECK(outcomes[i].id == expected[i].id);
+      CHECK(outcomes[i].record->result("sum") == expected[i].record->result("sum"));
+      CHECK(dem::read_file(bench.record(outcomes[i].id)) == dem::read_file(alone.record(outcomes[i].id)));
+    }
+    CHECK(states(bench.run()) == std::vector{kept, kept, kept});
+    CHECK(seen.threads.empty());
+  }
+}
+
+TEST_CASE("threads are shared by the cases that have to be simulated, and memory bounds how many run at a time") {
+  using Shares = std::map<std::string, int>;
+  Bench bench;
+  SUBCASE("one each") {
+    bench.options.threads = 2;
+    bench.run();
+    CHECK(seen.threads == Shares{{"count_1", 1}, {"count_2", 1}, {"count_3", 1}});
+  }
+  SUBCASE("more threads than cases") {
+    bench.options.threads = 8;
+    meet = 3;
+    bench.run();
+    int sum = 0;
+    for (const auto& [id, threads] : seen.threads) {
+      CHECK(threads >= 2);
+      sum += threads;
+    }
+    CHECK(sum == 8);
+  }
+  SUBCASE("one case that is not kept") {
+    bench.run();
+    bench.options.threads = 4;
+    bench.run({"sweep.value=[1, 2, 3, 4]"});
+    CHECK(seen.threads == Shares{{"count_4", 4}});
+  }
+  SUBCASE("a small machine: one after the other, with all threads") {
+    bench.options.threads = 2;
+    bench.options.memory = std::uint64_t{3} << 30;
+    bench.run();
+    CHECK(seen.threads == Shares{{"count_1", 2}, {"count_2", 2}, {"count_3", 2}});
+    CHECK(seen.most_inside == 1);
+  }
+}
+
+TEST_CASE("two cases that are stopped together both go on from their checkpoints") {
+  Bench uncut;
+  uncut.run();
+  Bench bench;
+  bench.options.threads = 2;
+  meet = 2;
+  stop_at = 4;
+  CHECK_THROWS_AS(bench.run(), dem::Interrupted);
+  stop = false;
+  stop_at = -1;
+  meet = 1;
+  for (const char* id : {"count_1", "count_2"}) {
+    CAPTURE(id);
+    CHECK(fs::exists(bench.record(id).parent_path() / "checkpoint"));
+    CHECK_FALSE(fs::exists(bench.record(id)));
+  }
+  CHECK_FALSE(fs::exists(bench.record("count_3").parent_path()));
+  CHECK(states(bench.run()) == std::vector{simulated, simulated, simulated});
+  CHECK(bench.why.at("count_1") == "no record; goes on from its checkpoint");
+  CHECK(bench.why.at("count_2") == "no record; goes on from its checkpoint");
+  CHECK(std::max(seen.first_step["count_1"], seen.first_step["count_2"]) == 4);
+  for (const char* id : {"count_1", "count_2", "count_3"}) {
+    CHECK(dem::read_file(bench.record(id)) == dem::read_file(uncut.record(id)));
+  }
+}
+
+TEST_CASE("an error of the machine ends the study; the case beside keeps its state") {
+  Bench bench;
+  bench.options.threads = 2;
+  meet = 2;
+  CHECK_THROWS_WITH_AS(bench.run({"load.breaks_at=1"}), "the disk is full", dem::EnvironmentError);
+  CHECK(fs::exists(bench.record("count_2").parent_path() / "checkpoint"));
+  CHECK_FALSE(fs::exists(bench.record("count_3").parent_path()));
 }
 
 TEST_CASE("a stop before the first case simulates nothing") {
@@ -248,10 +393,16 @@ TEST_CASE("a stop before the first case simulates nothing") {
 
 TEST_CASE("a case that fails does not stop the others, and is tried again") {
   Bench bench;
+  SUBCASE("one after the other") {}
+  SUBCASE("side by side") {
+    bench.options.threads = 2;
+    meet = 2;
+  }
   const auto outcomes = bench.run({"load.fails_at=2"});
   CHECK(states(outcomes) == std::vector{simulated, CaseState::failed, simulated});
   CHECK(outcomes[1].error == "the counter cannot be packed");
   CHECK_FALSE(outcomes[1].record);
+  meet = 1;
   CHECK(states(bench.run({"load.fails_at=2"})) == std::vector{kept, CaseState::failed, kept});
 }
 
@@ -315,9 +466,10 @@ TEST_CASE("progress in a log: a line now and then, with an estimate of the time 
   std::ostringstream out;
   double now = 100;
   dem::ProgressPrinter printer(out, dem::ProgressPrinter::Mode::lines, [&] { return now; });
-  printer.begin("compression_ar_2", 3, 6);
+  printer.start(6);
+  printer.begin("compression_ar_2", 3);
   for (int second = 0; second <= 100; ++second, now += 1) {
-    printer.update({"loading", 100 * second, second / 100.0, 1e-5 * second, 1e6 * second});
+    printer.update("compression_ar_2", {"loading", 100 * second, second / 100.0, 1e-5 * second, 1e6 * second});
   }
   std::istringstream lines(out.str());
   std::vector<std::string> all;
@@ -332,8 +484,9 @@ TEST_CASE("progress on a terminal: one line, redrawn; quiet: nothing") {
   double now = 0;
   dem::ProgressPrinter bar(
       out, dem::ProgressPrinter::Mode::bar, [&] { return now; }, 40);
-  bar.begin("a", 1, 1);
-  for (int i = 0; i < 1000; ++i, now += 0.001) bar.update({"loading", i, i / 1000.0, 0.01, 1e6});
+  bar.start(1);
+  bar.begin("a", 1);
+  for (int i = 0; i < 1000; ++i, now += 0.001) bar.update("a", {"loading", i, i / 1000.0, 0.01, 1e6});
   bar.say("done");
   const std::string text = out.str();
   CHECK(std::count(text.begin(), text.end(), '\n') == 1);
@@ -343,10 +496,41 @@ TEST_CASE("progress on a terminal: one line, redrawn; quiet: nothing") {
 
   std::ostringstream silent;
   dem::ProgressPrinter quiet(silent, dem::ProgressPrinter::Mode::quiet, [&] { return now; });
-  quiet.begin("a", 1, 1);
-  quiet.update({"loading", 1, 0.5, 0, 0});
+  quiet.start(1);
+  quiet.begin("a", 1);
+  quiet.update("a", {"loading", 1, 0.5, 0, 0});
   quiet.say("done");
   CHECK(silent.str().empty());
+}
+
+TEST_CASE("progress of cases that run side by side: lines of each in a log, one bar on a terminal") {
+  double now = 0;
+  const auto follow = [&](dem::ProgressPrinter& printer) {
+    now = 0;
+    printer.start(4);
+    printer.end("kept");
+    printer.begin("a", 2);
+    printer.begin("b", 3);
+    for (int second = 0; second <= 20; ++second, now += 1) {
+      printer.update("a", {"loading", second, second / 40.0, 0, 0});
+      printer.update("b", {"loading", second, second / 80.0, 0, 0});
+    }
+  };
+  std::ostringstream log;
+  dem::ProgressPrinter lines(log, dem::ProgressPrinter::Mode::lines, [&] { return now; });
+  follow(lines);
+  CHECK(log.str() ==
+        "a (2/4) loading 25 %, step 10, 30 s left\nb (3/4) loading 12 %, step 10, 1 min 10 s left\n"
+        "a (2/4) loading 50 %, step 20, 20 s left\nb (3/4) loading 25 %, step 20, 1 min 00 s left\n");
+
+  std::ostringstream terminal;
+  dem::ProgressPrinter bar(terminal, dem::ProgressPrinter::Mode::bar, [&] { return now; });
+  follow(bar);
+  const auto last = [&] { return terminal.str().substr(terminal.str().rfind("\r\033[K") + 4); };
+  CHECK(last() == "[########............] 1/4 done, a 50 % (20 s left), b 24 % (1 min 04 s left)");
+  bar.end("a");
+  bar.update("b", {"loading", 60, 0.75, 0, 0});
+  CHECK(last() == "[###############.....] b (3/4) loading 75 %, step 60, 7 s left");
 }
 
 TEST_CASE("durations as a person says them") {
