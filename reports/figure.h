@@ -22,10 +22,20 @@ struct CaseResult {
   std::string error;
 };
 
+/// A number that a paper states: a value, or a range.
+struct PublishedNumber {
+  std::string id, source, quantity, unit;
+  double low = 0, high = 0;             ///< the same for a value
+};
+
 struct StudyResult {
   const dem::Scenario* scenario = nullptr;
   std::vector<CaseResult> cases;
+  /// What figures show beside ours, of assets/published; nothing for a rock that no paper is about.
+  std::vector<PublishedNumber> published{};
+
   [[nodiscard]] const dem::Record* find(std::string_view id) const;
+  [[nodiscard]] double published_value(std::string_view id) const;  ///< NaN when there is none
 };
 
 /// Text table, also written as CSV.

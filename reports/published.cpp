@@ -259,6 +259,28 @@ void compare_entry(const StudyResult& study, const Json& entry, std::vector<Comp
   rows.push_back(std::move(row));
 }
 
+/// Gives every file of the study's model to `use`, by name; none for a rock that the papers are not about.
+template <class Use>
+void read_papers(const StudyResult& study, const std::filesystem::path& folder, const Use& use) {
+  if (!of_published_rock(study)) return;
+  std::vector<std::filesystem::path> files;
+  if (std::filesystem::is_directory(folder)) {
+    for (const auto& file : std::filesystem::directory_iterator(folder)) {
+      if (file.path().extension() == ".json") files.push_back(file.path());
+    }
+  }
+  std::ranges::sort(files);
+  for (const auto& file : files) {
+    try {
+      const Json json = Json::parse(dem::read_file(file));
+      if (json.at("model").get<std::string>() == study.scenario->model()) use(json);
+    } catch (const Json::exception& error) {
+      throw dem::EnvironmentError("the published numbers in " + file.filename().string() +
+                                  " cannot be read: " + error.what());
+    }
+  }
+}
+
 }  // namespace
 
 std::string_view verdict_word(Verdict verdict) {
@@ -271,28 +293,32 @@ std::string_view verdict_word(Verdict verdict) {
 }
 
 Comparisons compare(const StudyResult& study, const std::filesystem::path& published_folder) {
-  std::vector<std::filesystem::path> files;
-  if (std::filesystem::is_directory(published_folder)) {
-    for (const auto& file : std::filesystem::directory_iterator(published_folder)) {
-      if (file.path().extension() == ".json") files.push_back(file.path());
-    }
-  }
-  std::ranges::sort(files);
   Comparisons all;
-  for (const auto& file : files) {
-    try {
-      const Json json = Json::parse(dem::read_file(file));
-      if (json.at("model").get<std::string>() != study.scenario->model() || !of_published_rock(study)) continue;
-      const std::size_t before = all.rows.size();
-      for (const Json& entry : json.at("numbers")) compare_entry(study, entry, all.rows);
-      if (all.rows.size() == before) continue;
-      all.paper += (all.paper.empty() ? "" : "; ") + json.at("paper").get<std::string>();
-      all.scale = json.value("scale", "paper");
-    } catch (const Json::exception& error) {
-      throw dem::EnvironmentError("the published numbers in " + file.filename().string() +
-                                  " cannot be read: " + error.what());
+  read_papers(study, published_folder, [&](const Json& paper) {
+    const std::size_t before = all.rows.size();
+    for (const Json& entry : paper.at("numbers")) compare_entry(study, entry, all.rows);
+    if (all.rows.size() == before) return;
+    all.paper += (all.paper.empty() ? "" : "; ") + paper.at("paper").get<std::string>();
+    all.scale = paper.value("scale", "paper");
+  });
+  return all;
+}
+
+std::vector<PublishedNumber> published_numbers(const StudyResult& study, const std::filesystem::path& published_folder) {
+  std::vector<PublishedNumber> all;
+  read_papers(study, published_folder, [&](const Json& paper) {
+    const auto add = [&](const Json& entry) {
+      const Json& published = entry.at("published");
+      const bool range = published.is_array();
+      all.push_back({entry.at("id").get<std::string>(), entry.at("source").get<std::string>(),
+                     entry.at("quantity").get<std::string>(), entry.value("unit", ""),
+                     (range ? published.at(0) : published).get<double>(), (range ? published.at(1) : published).get<double>()});
+    };
+    for (const Json& entry : paper.at("numbers")) {
+      if (entry.at("kind").get<std::string>() == "value") add(entry);
     }
-  }
+    for (const Json& entry : paper.value("quoted", Json::array())) add(entry);
+  });
   return all;
 }
 

@@ -12,6 +12,8 @@
 // Where a scenario repeats its cases with other seeds, values are means, and a trend must stand out of their scatter: the 95 %
 // interval of its slope must not hold zero. With one seed the sign of the slope decides.
 // "optional": true leaves the number out where the scenario has not the case.
+// "quoted": [{"id", "source", "quantity", "unit", "published"}, ...] are numbers of the paper that figures show and nothing of
+// ours is compared with.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -51,5 +53,9 @@ struct Comparisons {
 /// All numbers that concern the scenario of the study. A case that failed, was left out or lacks the result gives
 /// not_computed. Throws dem::EnvironmentError naming the file and entry that cannot be understood.
 Comparisons compare(const StudyResult& study, const std::filesystem::path& published_folder);
+
+/// Every value and range that the papers of the study's model state, compared in this scenario or not, in the order of the
+/// files; nothing for another rock. Throws as compare().
+std::vector<PublishedNumber> published_numbers(const StudyResult& study, const std::filesystem::path& published_folder);
 
 }  // namespace reports

@@ -24,9 +24,10 @@ bool all_held(const StudyResult& study) {
 
 }  // namespace
 
-ReportOutcome make_report(const StudyResult& study, const ReportOptions& options, const CanvasSource& canvas,
+ReportOutcome make_report(StudyResult study, const ReportOptions& options, const CanvasSource& canvas,
                           const RunFacts& run) {
   const auto start = std::chrono::steady_clock::now();
+  study.published = published_numbers(study, options.assets / "published");
   const auto chosen = chosen_figures(study, options.only);
   const Comparisons comparisons = compare(study, options.assets / "published");
   const Drawings drawings = draw_figures(study, chosen, options, canvas);

@@ -42,7 +42,7 @@ using CanvasSource = std::function<render::Canvas&()>;
 /// Makes the report of a study. A failed case appears with its error in its figures' place.
 /// Throws dem::InputError when `only` names no figure of this scenario, dem::EnvironmentError when an asset is missing or
 /// broken, a file cannot be written, or WeasyPrint is missing or reports an error.
-ReportOutcome make_report(const StudyResult& study, const ReportOptions& options, const CanvasSource& canvas,
+ReportOutcome make_report(StudyResult study, const ReportOptions& options, const CanvasSource& canvas,
                           const RunFacts& run);
 
 /// The text of --list-figures: id, source, title and scenarios of every figure, a line each, grouped by model.

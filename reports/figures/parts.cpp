@@ -148,6 +148,18 @@ render::Series curve(const dem::Table& history, const CurveOf& of) {
   return series;
 }
 
+render::Series line_of(double low, double high, const std::function<double(double)>& y, int steps) {
+  render::Series series;
+  for (int i = 0; i <= steps; ++i) {
+    const double x = low + (high - low) * i / steps;
+    const double value = y(x);
+    if (!std::isfinite(value)) continue;
+    series.x.push_back(x);
+    series.y.push_back(value);
+  }
+  return series;
+}
+
 double at_first(std::span<const double> x, std::span<const double> y, double at) {
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (x[i] < at) continue;

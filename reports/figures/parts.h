@@ -76,6 +76,9 @@ render::Series curve(const dem::Table& history, const CurveOf& of);
 void add_curves(render::Chart& chart, const std::vector<SeriesCase>& cases, const CurveOf& of,
                 double up_to = std::numeric_limits<double>::infinity());
 
+/// A line through a function of x in equal steps from `low` to `high`; points that are not finite are left out.
+render::Series line_of(double low, double high, const std::function<double(double)>& y, int steps = 60);
+
 /// The y value of a column where `x` first reaches `at`, linear in between; NaN when it never does.
 double at_first(std::span<const double> x, std::span<const double> y, double at);
 

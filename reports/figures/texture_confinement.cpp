@@ -83,36 +83,17 @@ double stiffness_at_initiation(const dem::Record& record) {
                          result_or_nan(record, "crack_initiation_strain.axial_stiffness"));
 }
 
-/// An envelope of the paper whose formula it gives.
+/// An envelope of the paper whose formula it gives; NaN for another rock.
 struct Published {
-  const char* name;
   double sigma_c, m, s;
+  [[nodiscard]] double operator()(double sigma_3) const { return hoek_brown(sigma_3, sigma_c, m, s); }
 };
-// Eq. 11, and Martin's fit to laboratory tests as section 3.3 quotes it.
-constexpr Published published_peak{"published peak", 206, 29, 1}, published_damage{"published damage", 206, 16, 0.6},
-    martin{"Martin’s laboratory peak", 210, 28.9, 1};
-constexpr double published_intercept = 71.1, published_slope = 1.1;
-
-template <typename Function>
-render::Series sampled_line(double low, double high, const std::string& label, const render::Colour& colour, render::Line line,
-                            const Function& at) {
-  render::Series series{.label = label, .x = {}, .y = {}, .colour = colour, .line = line, .y_error = {}};
-  for (int i = 0; i <= 60; ++i) {
-    const double x = low + (high - low) * i / 60;
-    const double y = at(x);
-    if (!std::isfinite(y)) continue;
-    series.x.push_back(x);
-    series.y.push_back(y);
-  }
-  return series;
-}
 
 render::Series points(const StrengthPoints& of, const std::string& label, const render::Colour& colour, render::Marker marker) {
   return {.label = label, .x = of.sigma_3, .y = of.sigma_1, .colour = colour, .line = render::Line::none, .marker = marker, .y_error = {}};
 }
 
-// `beside`: with the published envelopes.
-render::Chart envelope_chart(const Envelopes& found, const std::vector<double>& tension, bool beside) {
+render::Chart envelope_chart(const StudyResult& study, const Envelopes& found, const std::vector<double>& tension) {
   render::Chart chart;
   chart.x.title = "Confining pressure σ₃ (MPa)";
   chart.left.title = "Axial stress σ₁ (MPa)";
@@ -136,41 +117,46 @@ render::Chart envelope_chart(const Envelopes& found, const std::vector<double>& 
     chart.series.push_back(ts);
   }
   const auto line = [&](const std::string& label, const render::Colour& colour, render::Line kind, const auto& at) {
-    chart.series.push_back(sampled_line(0, high, label, colour, kind, at));
+    render::Series series = line_of(0, high, at);
+    series.label = label;
+    series.colour = colour;
+    series.line = kind;
+    if (!series.x.empty()) chart.series.push_back(series);
   };
   if (found.peak_fit) line("our fits", peak_colour, render::Line::solid, [&](double x) { return found.peak_fit->at(x); });
   if (found.damage_fit) line("", damage_colour, render::Line::solid, [&](double x) { return found.damage_fit->at(x); });
   if (by_stiffness.fit) line("", initiation_colour, render::Line::solid, [&](double x) { return by_stiffness.fit->at(x); });
   if (by_strain.fit) line("", strain_colour, render::Line::solid, [&](double x) { return by_strain.fit->at(x); });
-  const auto published = [](const Published& p) { return [p](double x) { return hoek_brown(x, p.sigma_c, p.m, p.s); }; };
-  if (beside) {
-    line("published fits", peak_colour, render::Line::dash, published(published_peak));
-    line("", damage_colour, render::Line::dash, published(published_damage));
-    line("", strain_colour, render::Line::dash, [](double x) { return published_intercept + published_slope * x; });
-    line(martin.name, {0.4, 0.4, 0.4}, render::Line::dot, published(martin));
-  }
+  // Eq. 11, and Martin's fit to laboratory tests as section 3.3 quotes it.
+  const auto published = [&](const char* id) { return study.published_value(id); };
+  const double sigma_c = published("envelope_peak_sigma_c"), intercept = published("initiation_intercept"), slope = published("initiation_slope");
+  line("published fits", peak_colour, render::Line::dash, Published{sigma_c, published("envelope_peak_m"), 1});
+  line("", damage_colour, render::Line::dash, Published{sigma_c, published("envelope_damage_m"), published("envelope_damage_s")});
+  line("", strain_colour, render::Line::dash, [&](double x) { return intercept + slope * x; });
+  line("Martin’s laboratory peak", {0.4, 0.4, 0.4}, render::Line::dot, Published{published("martin_sigma_c"), published("martin_m"), 1});
   chart.legend = render::Chart::Legend::below;
   chart.width = 640;
   chart.height = 480;
   return chart;
 }
 
-TextTable envelope_table(const Envelopes& found, bool beside) {
+TextTable envelope_table(const StudyResult& study, const Envelopes& found) {
   TextTable table{{"Envelope", "Parameter", "Published", "Ours (95 % interval)", "Points"}, {}};
-  const auto row = [&](const char* envelope, const char* parameter, double value, std::string_view name, std::size_t n) {
+  const auto row = [&](const char* envelope, const char* parameter, const char* published, std::string_view name, std::size_t n) {
     const auto estimate = found.find(name);
-    table.rows.push_back({envelope, parameter, beside ? shortest(value) : "–", estimate ? estimate_text(*estimate, 3, true) : "no fit",
+    const double value = study.published_value(published);
+    table.rows.push_back({envelope, parameter, std::isfinite(value) ? shortest(value) : "–", estimate ? estimate_text(*estimate, 3, true) : "no fit",
                           std::to_string(n)});
   };
-  row("peak, σc = UCS, s = 1", "m", published_peak.m, "peak.m", found.peak.sigma_1.size());
-  row("peak, s = 1", "σc (MPa)", published_peak.sigma_c, "free.sigma_c", found.peak.sigma_1.size());
-  row("", "m", published_peak.m, "free.m", found.peak.sigma_1.size());
-  row("crack damage, σc = UCS", "m", published_damage.m, "damage.m", found.damage.sigma_1.size());
-  row("", "s", published_damage.s, "damage.s", found.damage.sigma_1.size());
+  row("peak, σc = UCS, s = 1", "m", "envelope_peak_m", "peak.m", found.peak.sigma_1.size());
+  row("peak, s = 1", "σc (MPa)", "envelope_peak_sigma_c", "free.sigma_c", found.peak.sigma_1.size());
+  row("", "m", "envelope_free_m", "free.m", found.peak.sigma_1.size());
+  row("crack damage, σc = UCS", "m", "envelope_damage_m", "damage.m", found.damage.sigma_1.size());
+  row("", "s", "envelope_damage_s", "damage.s", found.damage.sigma_1.size());
   for (const Initiation& one : found.initiation) {
     const std::string name = "crack initiation: " + std::string(one.name), id = "initiation." + std::string(one.id);
-    row(name.c_str(), "at σ₃ = 0 (MPa)", published_intercept, id + ".intercept", one.points.sigma_1.size());
-    row("", "slope", published_slope, id + ".slope", one.points.sigma_1.size());
+    row(name.c_str(), "at σ₃ = 0 (MPa)", "initiation_intercept", id + ".intercept", one.points.sigma_1.size());
+    row("", "slope", "initiation_slope", id + ".slope", one.points.sigma_1.size());
   }
   return table;
 }
@@ -237,9 +223,9 @@ FigureContent confinement_envelopes(const StudyResult& study) {
   content.panels.push_back({.id = "", .caption = "Strengths against confining pressure with fitted envelopes; the tensile strength stands at −σ₃.",
                             .alt = "Peak stresses from " + number(std::ranges::min(found.peak.sigma_1), 3) + " to " +
                                    number(std::ranges::max(found.peak.sigma_1), 3) + " MPa. Fits: " + fits + ".",
-                            .content = envelope_chart(found, tension, of_published_rock(study))});
+                            .content = envelope_chart(study, found, tension)});
   content.panels.push_back({.id = "parameters", .caption = "Parameters of the envelopes, by least squares of σ₁.", .alt = "",
-                            .content = envelope_table(found, of_published_rock(study)), .per_row = 1});
+                            .content = envelope_table(study, found), .per_row = 1});
   content.finding = "Fitted: " + fits + ".";
   // Eq. 12: 0.3 to 0.5 of sigma_c, slope 1 to 1.5. Of the four readings only a stress at a set strain has a slope near 1 by itself:
   // it is sigma_3 and the elastic stress of that strain.

@@ -298,16 +298,14 @@ FigureContent input_parameters(const StudyResult& study) {
   content.panels.push_back(
       {.id = "minerals", .caption = "Materials (Table 4).", .alt = "", .content = by_mineral, .per_row = 1});
 
-  if (of_published_rock(study)) {
-    // Table 2: what laboratories measured; the calibration aims at it, nothing here is fitted to it.
-    TextTable laboratory{{"Lac du Bonnet granite in the laboratory", "Value"},
-                         {{"density (kg/m³)", "2640"},
-                          {"Young’s modulus (GPa)", "69–71"},
-                          {"Poisson’s ratio", "0.26"},
-                          {"friction coefficient", "0.6"},
-                          {"UCS (MPa)", "200–228"},
-                          {"TS (MPa)", "9.3–13.4"},
-                          {"m", "28–34"}}};
+  // Table 2: what laboratories measured; the calibration aims at it, nothing here is fitted to it.
+  TextTable laboratory{{"Lac du Bonnet granite in the laboratory", "Value"}, {}};
+  for (const PublishedNumber& one : study.published) {
+    if (one.source != "Table 2") continue;
+    laboratory.rows.push_back({one.quantity + (one.unit.empty() ? "" : " (" + one.unit + ")"),
+                               shortest(one.low) + (one.high > one.low ? "–" + shortest(one.high) : "")});
+  }
+  if (!laboratory.rows.empty()) {
     content.panels.push_back({.id = "laboratory",
                               .caption = "Targets of the calibration (Table 2), as published.",
                               .alt = "",
@@ -351,13 +349,12 @@ FigureContent texture_by_seed(const StudyResult& study) {
     chart.series.push_back(ours);
     const double base = spread_of(cases.front(), share).mean;
     const auto line = [&](const char* label, double (*surface)(double), render::Line kind, std::size_t colour) {
-      render::Series series{
-          .label = label, .x = {}, .y = {}, .colour = render::palette(colour), .line = kind, .y_error = {}};
-      for (int k = 0; k <= 40; ++k) {
-        const double ar = cases.front().value + (cases.back().value - cases.front().value) * k / 40;
-        series.x.push_back(ar);
-        series.y.push_back(base * surface(ar) / surface(cases.front().value));
-      }
+      const double first = cases.front().value;
+      render::Series series = line_of(
+          first, cases.back().value, [&](double ar) { return base * surface(ar) / surface(first); }, 40);
+      series.label = label;
+      series.colour = render::palette(colour);
+      series.line = kind;
       chart.series.push_back(series);
     };
     line("in proportion to the surface of the ellipsoid", exact_surface, render::Line::dash, 1);

@@ -110,7 +110,7 @@ const dem::Record* first_specimen(const StudyResult& study) {
 }
 
 StudyResult of_mineral(const StudyResult& study, std::string_view mineral) {
-  StudyResult chosen{study.scenario, {}};
+  StudyResult chosen{study.scenario, {}, study.published};
   for (const CaseResult& one : study.cases) {
     if (!one.record) continue;
     const auto named = std::ranges::find(one.record->parameters, "mineral", [](const auto& p) { return p.first; });

@@ -50,8 +50,7 @@ std::vector<Level> levels_of(const dem::Record& record) {
   return levels;
 }
 
-// `beside`: with the published levels.
-render::Chart stress_and_strains(const dem::Record& record, bool beside) {
+render::Chart stress_and_strains(const StudyResult& study, const dem::Record& record) {
   const dem::Table& history = record.table("history");
   render::Chart chart;
   chart.x.title = "Axial strain (%)";
@@ -71,10 +70,10 @@ render::Chart stress_and_strains(const dem::Record& record, bool beside) {
   lateral.line = render::Line::dash_dot;
   lateral.side = render::Side::right;
   chart.series = {stress, volume, lateral};
-  if (beside) {
-    for (const auto& [level, name] : {std::pair{71.1, "published σci"}, {164.0, "published σcd"}, {206.8, "published peak"}}) {
-      chart.marks.push_back({.kind = render::Mark::Kind::horizontal, .x = 0, .y = level, .label = name, .colour = {0.6, 0.6, 0.6}});
-    }
+  for (const auto& [id, name] : {std::pair{"crack_initiation_ar_1", "published σci"}, {"crack_damage", "published σcd"}, {"ucs_ar_1", "published peak"}}) {
+    const double level = study.published_value(id);
+    if (!std::isfinite(level)) continue;
+    chart.marks.push_back({.kind = render::Mark::Kind::horizontal, .x = 0, .y = level, .label = name, .colour = {0.6, 0.6, 0.6}});
   }
   for (const Level& one : levels_of(record)) {
     chart.marks.push_back({.kind = render::Mark::Kind::point, .x = one.strain, .y = one.stress, .label = one.symbol, .colour = {0, 0, 0}});
@@ -367,7 +366,7 @@ FigureContent progressive_failure(const StudyResult& study) {
   const std::string found = said.empty() ? "no characteristic stress was found" : joined(said, ", ");
   content.panels.push_back({.id = "stress", .caption = "Axial stress, volumetric and lateral strain (contraction positive), with our and the published levels.",
                             .alt = "Stress, volumetric and lateral strain against axial strain: " + found + ".",
-                            .content = stress_and_strains(base, of_published_rock(study))});
+                            .content = stress_and_strains(study, base)});
   content.panels.push_back({.id = "stiffness", .caption = "Axial stiffness (Eq. 9) and cracks so far, by class.",
                             .alt = "Axial stiffness and numbers of cracks against axial strain; " +
                                    crack_words(crack_numbers(base, all_cracks)) + " at the end.",

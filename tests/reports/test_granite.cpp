@@ -60,6 +60,12 @@ struct Made {
   }
 };
 
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += word + " ";
+  return text;
+}
+
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
@@ -93,6 +99,42 @@ TEST_CASE("figures under confinement say what the records hold") {
   const auto counts = reports::texture::confinement_crack_counts(made.study());
   CHECK(counts.panels.size() == 2);
   CHECK(std::ranges::all_of(counts.panels, [](const reports::Panel& p) { return std::get<render::Chart>(p.content).x.title.find("σ₃") != std::string::npos; }));
+}
+
+TEST_CASE("figures show what the paper states beside ours, and nothing for another rock") {
+  const auto labels = [](const reports::FigureContent& content) {
+    std::vector<std::string> found;
+    const auto& chart = std::get<render::Chart>(content.panels.at(0).content);
+    for (const render::Series& series : chart.series) found.push_back(series.label);
+    for (const render::Mark& mark : chart.marks) found.push_back(mark.label);
+    return joined(found);
+  };
+  Made made("ldb_confinement");
+  for (const double pressure : {0.0, 10.0, 40.0}) made.add_confined(pressure);
+  for (const double pressure : {0.0, 10.0, 40.0}) made.add_confined(pressure, "quartz", 200);
+  reports::StudyResult study = made.study();
+  using reports::texture::confinement_envelopes, reports::texture::progressive_failure, reports::texture::mineral_envelopes;
+  const auto curves = [&] { return std::get<render::Chart>(mineral_envelopes(study).panels.at(0).content).series.size(); };
+  CHECK_FALSE(has(labels(confinement_envelopes(study)), "published"));
+  CHECK_FALSE(has(labels(progressive_failure(study)), "published"));
+  CHECK(curves() == 2);  // points and our fit
+
+  study.published = reports::published_numbers(study, std::filesystem::path(DEM_SOURCE_DIR) / "assets/published");
+  CHECK(has(labels(confinement_envelopes(study)), "published fits"));
+  CHECK(has(labels(confinement_envelopes(study)), "Martin’s laboratory peak"));
+  const auto table = std::get<reports::TextTable>(confinement_envelopes(study).panels.at(1).content);
+  std::vector<std::string> published;
+  for (const auto& row : table.rows) published.push_back(row[2]);
+  CHECK(joined(published).starts_with("29 206 29 16 0.6 71.1 1.1 "));
+  CHECK(has(labels(progressive_failure(study)), "published σci published σcd published peak"));
+  CHECK(curves() == 3);
+  const auto mineral = std::get<reports::TextTable>(reports::texture::mineral_properties(study).panels.back().content);
+  REQUIRE(mineral.rows.size() == 1);
+  CHECK(has(mineral.rows[0][3], " / 418"));
+  const auto inputs = reports::texture::input_parameters(study).panels.back();
+  CHECK(std::get<reports::TextTable>(inputs.content).rows ==
+        std::vector<std::vector<std::string>>{{"density (kg/m³)", "2640"}, {"Young’s modulus (GPa)", "69–71"}, {"Poisson’s ratio", "0.26"},
+                                              {"friction coefficient", "0.6"}, {"UCS (MPa)", "200–228"}, {"TS (MPa)", "9.3–13.4"}, {"m", "28–34"}});
 }
 
 TEST_CASE("figures stand with one case and with none") {

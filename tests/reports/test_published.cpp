@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
@@ -196,4 +197,24 @@ TEST_CASE("the published numbers of the grain texture model can be read and have
   }
   std::ranges::sort(ids);
   CHECK(std::ranges::adjacent_find(ids) == ids.end());
+}
+
+TEST_CASE_FIXTURE(Fixture, "figures are given every value and range of the paper, compared or quoted") {
+  dem::write_file(scratch / "published/paper.json",
+                  R"({"model": "grain_texture", "paper": "P", "numbers": [)"
+                  R"({"id": "a", "scenarios": ["another"], "source": "S", "quantity": "Q", "unit": "MPa", )" +
+                      value("206.8", R"({"relative": 0.1})") +
+                      R"(}, {"id": "t", "scenarios": [], "source": "S", "quantity": "Q", "kind": "trend", "published": "rises"}], )"
+                      R"("quoted": [{"id": "b", "source": "T", "quantity": "R", "published": [2, 3]}]})");
+  dem::write_file(scratch / "published/other.json", R"({"model": "sheet", "paper": "P", "numbers": [{"broken": 1}]})");
+  auto known = study();
+  known.published = reports::published_numbers(known, scratch / "published");
+  REQUIRE(known.published.size() == 2);
+  CHECK(known.published_value("a") == 206.8);
+  CHECK(known.published[0].unit == "MPa");
+  CHECK(known.published[1].source == "T");
+  CHECK(known.published[1].low == 2);
+  CHECK(known.published[1].high == 3);
+  CHECK(std::isnan(known.published_value("t")));
+  CHECK(std::isnan(study().published_value("a")));
 }
