@@ -97,6 +97,12 @@ double limit_of(const dem::Record& record) {
   return found == record.checks.end() ? std::nan("") : found->limit;
 }
 
+std::vector<std::string> ledger_labels(const SeriesCase& item) {
+  std::vector<std::string> labels;
+  for (const LedgerTerm& term : ledger_terms(item.record->table("history"))) labels.push_back(term.label);
+  return labels;
+}
+
 std::string shares_alt(const dem::Table& history) {
   const auto terms = ledger_terms(history);
   const auto work = work_of(history, terms);
@@ -135,8 +141,11 @@ FigureContent energy_figure(const StudyResult& study, std::string_view test, con
   double worst = 0;
   for (const SeriesCase* item : kept) {
     const dem::Table& history = item->record->table("history");
-    content.panels.push_back({.id = item->id, .caption = item->label + ".", .alt = item->label + ". " + shares_alt(history),
-                              .content = ledger_chart(history, x_column, x_title, x_factor, energy_unit(most))});
+    render::Chart chart = ledger_chart(history, x_column, x_title, x_factor, energy_unit(most));
+    const bool explained = item != kept.front() && ledger_labels(*item) == ledger_labels(*kept.front());
+    if (explained) chart.legend = render::Chart::Legend::none;
+    content.panels.push_back({.id = item->id, .caption = item->label + (explained ? "; colours as at " + kept.front()->label + "." : "."),
+                              .alt = item->label + ". " + shares_alt(history), .content = std::move(chart)});
     render::Series series = relative_residual(history, x_column, x_factor);
     series.label = item->label;
     series.colour = item->colour;
