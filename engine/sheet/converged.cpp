@@ -12,7 +12,7 @@ namespace {
 
 constexpr int usual_solves = 2;  // of a relaxation with a good factor
 // A part of the factor is made anew when solves beyond the usual ones have cost what that is likely to cost.
-constexpr double least_worth = 1, operations_a_solve = 1e9;
+constexpr double least_worth = 1, operations_a_solve = 6e8;
 constexpr double gross_change = 0.05;     // of a spring's stiffness: the factor follows wherever that is
 constexpr double slight_change = 0.0005;  // the factor follows where it was seen to fall short
 constexpr double least_heat = 0.01;       // share of the unbalanced force that a solve left there
@@ -20,6 +20,7 @@ constexpr int tile = 16;                  // particles a side of the squares in 
 constexpr int most_changes = 300;         // rank beyond which corrections cost more than a new factor
 constexpr double peak_share = 0.02;       // of the largest unbalanced force: what patches are laid around
 constexpr std::size_t most_hot = 2000, most_patches = 3;
+constexpr double slight_load = 1e-4;  // of the largest unbalanced force: what waits for a later step
 constexpr double longest_step = 0.2;  // of a particle radius, in one step
 
 }  // namespace
@@ -36,6 +37,7 @@ struct ConvergedSolver::Impl {
   bool load_moved = false;                      // since the last whole one
   std::vector<std::uint8_t> held;               // of each slot: whether the factor has it, changes included
   std::vector<double> heat;         // of each tile: the largest share of the unbalanced force that a solve left there
+  std::vector<int> node_of_slot;    // where the tree holds each
   std::vector<std::uint8_t> stale;  // of each node of the tree
   std::vector<int> watched;         // slots that are not joined
   double worth = 0;                 // solves that cost as much as the last factorisation
@@ -43,16 +45,26 @@ struct ConvergedSolver::Impl {
   std::vector<double> u;  // load, then displacement, in elimination order
 
   Impl(const Sheet& sheet, ConvergedSettings s)
-      : settings(s), dissection(sheet.lattice), factor(dissection, s.threads, Factor::Again::parts) {
+      : settings(s),
+        dissection(sheet.lattice),
+        factor(dissection, s.threads, Factor::Again::parts),
+        patches(s.threads) {
     u.assign(2 * static_cast<std::size_t>(sheet.particles()), 0.0);
     heat.assign(static_cast<std::size_t>(tiles_across() * tiles_up()), 0.0);
+    node_of_slot = nodes_of_slots(sheet);
   }
 
   // The node that eliminates the first of a slot's particles: it holds the coupling, and what it changes reaches the
   // other particle's node, further up.
-  int node_of(const Sheet& sheet, int slot) const {
+  std::vector<int> nodes_of_slots(const Sheet& sheet) const {
+    std::vector<int> nodes(static_cast<std::size_t>(sheet.slots()), 0);
     const auto at = [&](int particle) { return dissection.position[static_cast<std::size_t>(particle)]; };
-    return dissection.node_of[static_cast<std::size_t>(std::min(at(sheet.first(slot)), at(sheet.second(slot))))];
+    for (int slot = 0; slot < sheet.slots(); ++slot) {
+      const auto k = static_cast<std::size_t>(slot);
+      if (sheet.stiffness[k] <= 0) continue;
+      nodes[k] = dissection.node_of[static_cast<std::size_t>(std::min(at(sheet.first(slot)), at(sheet.second(slot))))];
+    }
+    return nodes;
   }
 
   int tiles_across() const { return (dissection.lattice.columns + tile - 1) / tile; }
@@ -115,13 +127,14 @@ struct ConvergedSolver::Impl {
       if (most <= slight_change * sheet.stiffness[k]) continue;
       const int i = sheet.first(slot), columns = sheet.lattice.columns;
       const bool here = hot[static_cast<std::size_t>(i / columns / tile * tiles_across() + i % columns / tile)] != 0;
-      if (here || most > gross_change * sheet.stiffness[k]) stale[static_cast<std::size_t>(node_of(sheet, slot))] = 1;
+      if (here || most > gross_change * sheet.stiffness[k]) stale[static_cast<std::size_t>(node_of_slot[k])] = 1;
     }
     factor.factor().close(stale);
-    for (int slot = 0; slot < sheet.slots(); ++slot) {
-      const auto k = static_cast<std::size_t>(slot);
-      if (sheet.stiffness[k] > 0 && stale[static_cast<std::size_t>(node_of(sheet, slot))]) matrix.coupling[k] = now[k];
+#pragma omp parallel for schedule(static) num_threads(settings.threads)
+    for (std::size_t k = 0; k < slots; ++k) {
+      if (sheet.stiffness[k] > 0 && stale[static_cast<std::size_t>(node_of_slot[k])]) matrix.coupling[k] = now[k];
     }
+#pragma omp parallel for schedule(static) num_threads(settings.threads)
     for (std::size_t at = 0; at < dissection.order.size(); ++at) {
       if (!stale[static_cast<std::size_t>(dissection.node_of[at])]) continue;
       const int particle = dissection.order[at];
@@ -203,63 +216,45 @@ struct ConvergedSolver::Impl {
     return std::max(fx, fy);
   }
 
-  // What is unbalanced: how much, and the boxes that cover what is above a share of the peak and of the tolerance
-  // (none when that takes more than most_patches boxes).
-  struct Imbalance {
-    double largest_spring = 0, most = 0;
-    std::vector<PatchBox> boxes;
-  };
-  Imbalance look(const Sheet& sheet, const Forces& forces) const {
+  // Boxes that cover what is unbalanced above a share of the peak and of the tolerance (none when that takes more than
+  // most_patches boxes).
+  std::vector<LatticeBox> boxes_around(const Sheet& sheet, const Forces& forces) const {
     const int rows = sheet.lattice.rows;
     const auto columns = static_cast<std::size_t>(sheet.lattice.columns);
-    const auto n = static_cast<std::size_t>(sheet.particles());
-    std::vector<Imbalance> row(static_cast<std::size_t>(rows));
-#pragma omp parallel for schedule(static) num_threads(settings.threads)
-    for (int r = 0; r < rows; ++r) {
-      double spring = 0;
-      for (std::size_t d = 0; d < 3; ++d) {
-        const double* t = forces.tension.data() + d * n + static_cast<std::size_t>(r) * columns;
-#pragma omp simd reduction(max : spring)
-        for (std::size_t c = 0; c < columns; ++c) spring = std::fabs(t[c]) > spring ? std::fabs(t[c]) : spring;
-      }
-      row[static_cast<std::size_t>(r)].largest_spring = spring;
-    }
-    Imbalance all;
-    for (const auto& one : row) all.largest_spring = std::max(all.largest_spring, one.largest_spring);
-    const auto size = [&](std::size_t i) { return open(sheet, forces, i); };
-#pragma omp parallel for schedule(static) num_threads(settings.threads)
-    for (int r = 0; r < rows; ++r) {
-      double most = 0;
-      for (std::size_t c = 0; c < columns; ++c) most = std::max(most, size(static_cast<std::size_t>(r) * columns + c));
-      row[static_cast<std::size_t>(r)].most = most;
-    }
-    for (const auto& one : row) all.most = std::max(all.most, one.most);
-    const double counts = std::max(0.8 * settings.tolerance * all.largest_spring, peak_share * all.most);
+    const double counts = std::max(0.8 * settings.tolerance * forces.largest, peak_share * forces.unbalanced);
     struct Hot {
       int column, row;
       double size;
     };
     std::vector<Hot> hot;
     for (int r = 0; r < rows && hot.size() < most_hot; ++r) {
-      if (row[static_cast<std::size_t>(r)].most <= counts) continue;
+      if (forces.rows[static_cast<std::size_t>(r)].unbalanced <= counts) continue;
       for (int c = 0; c < sheet.lattice.columns; ++c) {
-        const double value = size(static_cast<std::size_t>(r) * columns + static_cast<std::size_t>(c));
+        const double value = open(sheet, forces, static_cast<std::size_t>(r) * columns + static_cast<std::size_t>(c));
         if (value > counts) hot.push_back({c, r, value});
       }
     }
-    if (hot.size() >= most_hot) return all;
+    std::vector<LatticeBox> boxes;
+    if (hot.size() >= most_hot) return boxes;
     while (!hot.empty()) {
-      if (all.boxes.size() == most_patches) {
-        all.boxes.clear();
+      if (boxes.size() == most_patches) {
+        boxes.clear();
         break;
       }
       const Hot worst =
           *std::max_element(hot.begin(), hot.end(), [](const Hot& a, const Hot& b) { return a.size < b.size; });
-      all.boxes.push_back(Patches::around(sheet.lattice, worst.column, worst.row));
-      std::erase_if(hot,
-                    [&](const Hot& h) { return Patches::covers(sheet.lattice, all.boxes.back(), h.column, h.row); });
+      boxes.push_back(Patches::around(sheet.lattice, worst.column, worst.row));
+      std::erase_if(hot, [&](const Hot& h) { return Patches::covers(sheet.lattice, boxes.back(), h.column, h.row); });
     }
-    return all;
+    return boxes;
+  }
+
+  // The two particles of a slot.
+  static LatticeBox around(const Sheet& sheet, int slot) {
+    const int columns = sheet.lattice.columns, i = sheet.first(slot), j = sheet.second(slot);
+    const auto [c0, c1] = std::minmax({i % columns, j % columns});
+    const auto [r0, r1] = std::minmax({i / columns, j / columns});
+    return {c0, c1 + 1, r0, r1 + 1};
   }
 
   // Unbalanced forces along free directions, in elimination order; what is far below `small` is left for later steps,
@@ -298,16 +293,16 @@ struct ConvergedSolver::Impl {
     }
   }
 
-  double limit(const Sheet& sheet) const {  // share of the step with which no particle exceeds longest_step
+  // How many times u may be gone without a particle exceeding longest_step.
+  double limit(const Sheet& sheet) const {
     const double most = largest(u);
-    const double longest = longest_step * sheet.radius0;
-    return most > longest ? longest / most : 1.0;
+    return most > 0 ? longest_step * sheet.radius0 / most : 1.0;
   }
 
-  static double largest(std::span<const double> v) {
+  double largest(std::span<const double> v) const {
     double most = 0;
     const double* p = v.data();
-#pragma omp simd reduction(max : most)
+#pragma omp parallel for simd reduction(max : most) schedule(static) num_threads(settings.threads)
     for (std::size_t i = 0; i < v.size(); ++i) most = std::fabs(p[i]) > most ? std::fabs(p[i]) : most;
     return most;
   }
@@ -355,36 +350,49 @@ struct ConvergedSolver::Impl {
 
   // The case ends rather than go on with what is no number: nothing after it could be trusted.
   void require_finite() const {
-    if (!std::isfinite(dot(u.data(), u.data(), u.size())))
+    double nothing = 0;  // zero, or no number
+    const double* p = u.data();
+#pragma omp parallel for simd reduction(+ : nothing) schedule(static) num_threads(settings.threads)
+    for (std::size_t i = 0; i < u.size(); ++i) nothing += 0 * p[i];
+    if (nothing != 0)
       throw CaseError("the sheet lost its stiffness and no equilibrium was found; smaller load steps may help");
   }
 
-  // Moves along u; shortens the step while the energy would rise along it.
+  // Moves along u; shortens the step while the energy would rise along it, lengthens it while it goes on falling as
+  // steeply (a fragment that nothing holds, or that buckles: its way to equilibrium is long beside the held step).
   void search(Sheet& sheet, Forces& forces) {
     const double before = forces.unbalanced;
-    double share = limit(sheet);
+    const double most = limit(sheet);
+    double share = std::min(1.0, most);
     move(sheet, share);
-    const double slope_share = share;
+    double at = share;
     compute_forces(sheet, forces, settings.threads);
     if (forces.unbalanced < 0.9 * before) return;
     // Rare: find where the forces along u vanish, from the start's slope (recomputed) on.
-    move(sheet, -slope_share);
+    move(sheet, -share);
     compute_forces(sheet, forces, settings.threads);
     const double slope = work_of(sheet, forces);
-    double at = 0;
+    at = 0;
     for (int attempt = 0; attempt < 12; ++attempt) {
       move(sheet, share - at);
       at = share;
       compute_forces(sheet, forces, settings.threads);
       const double now = work_of(sheet, forces);
-      if (forces.unbalanced < 0.9 * before || now >= -0.5 * std::fabs(slope)) return;
+      if (forces.unbalanced < 0.9 * before) return;
       ++done.searches;
-      share = std::clamp(share * slope / (slope - now), 0.1 * share, 0.7 * share);
+      if (now > 0.7 * slope) {
+        if (share >= most) return;
+        share = std::min(2 * share, most);
+      } else if (now >= -0.5 * std::fabs(slope)) {
+        return;
+      } else {
+        share = std::clamp(share * slope / (slope - now), 0.1 * share, 0.7 * share);
+      }
     }
   }
 
   int global_step(Sheet& sheet, Forces& forces, bool conjugate) {
-    load(sheet, forces, 0.05 * settings.tolerance * forces.largest);
+    load(sheet, forces, std::max(0.05 * settings.tolerance * forces.largest, slight_load * forces.unbalanced));
     int solves = 1;
     if (conjugate) {
       solves = newton_direction(sheet, forces, 0.02, 20);
@@ -399,7 +407,8 @@ struct ConvergedSolver::Impl {
 
   Relaxation relax(Sheet& sheet, Forces& forces, std::span<const int> near) {
     ++done.relaxations;
-    compute_forces(sheet, forces, settings.threads);
+    if (near.empty()) compute_forces(sheet, forces, settings.threads);
+    for (const int slot : near) update_forces(sheet, forces, around(sheet, slot));
     // Kept in order of slots, as after a restart: changes are made in that order.
     for (const int slot : near) watched.insert(std::lower_bound(watched.begin(), watched.end(), slot), slot);
     Relaxation result;
@@ -408,21 +417,19 @@ struct ConvergedSolver::Impl {
     // The load moved, and every direction turned a little: the breaks that follow are worth a new factor.
     if (!factorised || (!near.empty() && load_moved)) factorise(sheet, forces, Extent::whole), fresh = true;
     if (near.empty()) load_moved = true;
-    Imbalance now = look(sheet, forces);
-    const auto balanced = [&] { return now.most <= settings.tolerance * now.largest_spring; };
+    const auto balanced = [&] { return forces.unbalanced <= settings.tolerance * forces.largest; };
     while (!balanced() && result.iterations < settings.most_solves) {
-      const double before = now.most;
+      const double before = forces.unbalanced;
       // Patches come after global steps: what they push over their rim is for the next global step.
-      if (!settings.refactor_always && result.iterations > patched && !now.boxes.empty()) {
-        for (const PatchBox& box : now.boxes) {
-          patches.relax(sheet, forces, box, 0.1 * settings.tolerance * now.largest_spring);
+      if (!settings.refactor_always && result.iterations > patched) {
+        patched = result.iterations;
+        const std::vector<LatticeBox> boxes = boxes_around(sheet, forces);
+        const double small = 0.1 * settings.tolerance * forces.largest;
+        for (const LatticeBox& box : boxes) {
+          patches.relax(sheet, forces, box, small);
           ++done.patches;
         }
-        patched = result.iterations;
-        now = look(sheet, forces);
-        forces.largest = now.largest_spring;
-        forces.unbalanced = now.most;
-        continue;
+        if (!boxes.empty()) continue;
       }
       if (settings.refactor_always || factor.changes() > most_changes || extra_solves > std::max(least_worth, worth)) {
         factorise(sheet, forces, settings.refactor_always ? Extent::whole : Extent::part);
@@ -431,17 +438,16 @@ struct ConvergedSolver::Impl {
         follow(sheet, forces);
       }
       const int solves = global_step(sheet, forces, slow >= 2);
-      now = look(sheet, forces);
       warm(sheet, forces, before);
       result.iterations += solves;
-      if (now.most > 0.3 * before) ++slow;
+      if (forces.unbalanced > 0.3 * before) ++slow;
       if (!fresh) extra_solves += solves;
       // A relaxation that goes on and on needs a factor of its own.
       if (result.iterations % 40 < solves && result.iterations >= 40) extra_solves = 2 * most_changes;
     }
     if (!fresh) extra_solves = std::max(0.0, extra_solves - std::min(usual_solves, result.iterations));
     result.reached = balanced();
-    result.unbalanced = now.largest_spring > 0 ? now.most / now.largest_spring : 0;
+    result.unbalanced = forces.largest > 0 ? forces.unbalanced / forces.largest : 0;
     return result;
   }
 };

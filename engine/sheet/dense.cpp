@@ -14,10 +14,13 @@ namespace {
 typedef double V4 __attribute__((vector_size(32)));
 typedef float F4 __attribute__((vector_size(16)));
 typedef float F8 __attribute__((vector_size(32)));
+typedef std::int32_t I8 __attribute__((vector_size(32)));
 
-constexpr int block = 48;        // columns eliminated together
-constexpr int stripe = 16;       // rows packed together
-constexpr int prefetched = 256;  // floats that a sweep asks for ahead
+constexpr int block = 48;         // columns eliminated together
+constexpr int stripe = 16;        // rows packed together
+constexpr int shared_rows = 192;  // left in a front that several threads work on
+constexpr int ahead = 64;         // lines that a sweep asks for ahead
+constexpr float steps = 32700;    // of sixteen bits, a little less than they hold: rounding is carried on
 
 inline __attribute__((always_inline)) V4 load(const double* p) {
   V4 v;
@@ -34,9 +37,52 @@ inline __attribute__((always_inline)) F8 load8(const float* p) {
   std::memcpy(&v, p, sizeof v);
   return v;
 }
+// Eight rows of two columns in sixteen bits, the first in the lower half of a word; both as whole numbers times 2^16.
+struct Two {
+  F8 first, second;
+};
+inline __attribute__((always_inline)) Two load_two(const unsigned char* p) {
+  I8 v;
+  std::memcpy(&v, p, sizeof v);
+  return {__builtin_convertvector(v << 16, F8), __builtin_convertvector(v & -65536, F8)};
+}
 inline __attribute__((always_inline)) void store(double* p, const V4& v) { std::memcpy(p, &v, sizeof v); }
 inline __attribute__((always_inline)) void store(float* p, const F8& v) { std::memcpy(p, &v, sizeof v); }
 inline __attribute__((always_inline)) double sum(const V4& v) { return (v[0] + v[2]) + (v[1] + v[3]); }
+inline __attribute__((always_inline)) void store8(float* p, const F8& v) { std::memcpy(p, &v, sizeof v); }
+// {sum of a[0], sum of a[1], ...}
+inline __attribute__((always_inline)) F8 sums(const F8 (&a)[8]) {
+  F8 pairs[4], fours[2];
+  for (int q = 0; q < 4; ++q) {
+    const F8 &x = a[2 * q], &y = a[2 * q + 1];
+    pairs[q] =
+        __builtin_shuffle(x, y, I8{0, 8, 2, 10, 4, 12, 6, 14}) + __builtin_shuffle(x, y, I8{1, 9, 3, 11, 5, 13, 7, 15});
+  }
+  for (int q = 0; q < 2; ++q) {
+    const F8 &x = pairs[2 * q], &y = pairs[2 * q + 1];
+    fours[q] =
+        __builtin_shuffle(x, y, I8{0, 1, 8, 9, 4, 5, 12, 13}) + __builtin_shuffle(x, y, I8{2, 3, 10, 11, 6, 7, 14, 15});
+  }
+  return __builtin_shuffle(fours[0], fours[1], I8{0, 1, 2, 3, 8, 9, 10, 11}) +
+         __builtin_shuffle(fours[0], fours[1], I8{4, 5, 6, 7, 12, 13, 14, 15});
+}
+
+// The first lines of a block of a thin panel hold floats: eight scales of the sixteen bits, then the inverse of the
+// triangle, column q from the diagonal down from place 8 + q (17 - q) / 2 on.
+constexpr int head_lines = 3;
+constexpr int head_floats = 48;
+constexpr int column_of_triangle(int q) { return 8 + q * (17 - q) / 2 - q; }  // where its row 0 would be
+inline __attribute__((always_inline)) F8 triangle_column(const unsigned char* head, int q) {
+  constexpr I8 rows{0, 1, 2, 3, 4, 5, 6, 7};
+  F8 v;  // what lies before the diagonal belongs to other columns (or to the scales)
+  std::memcpy(&v, head + 4 * column_of_triangle(q), sizeof v);
+  return rows < q ? F8{} : v;
+}
+inline __attribute__((always_inline)) F8 scales_of(const unsigned char* head) {
+  F8 v;
+  std::memcpy(&v, head, sizeof v);
+  return v;
+}
 
 // The columns of a front: first those of the panel, then those that are left for the parent.
 struct Front {
@@ -119,11 +165,11 @@ DEM_CLONES void solve_stripe(float* x, int w, const float* d) {
   }
 }
 
-// Columns and rows from `first` on -= P P^T (lower part), P packed in stripes of rows, stripe by stripe, column by
-// column.
-DEM_CLONES void update_trailing(const Front& front, int first, int w, const float* packed) {
+// Columns first + [from, to) and the rows below their diagonal -= P P^T, P packed in stripes of rows, stripe by stripe,
+// column by column. `from` is a multiple of four.
+DEM_CLONES void update_trailing(const Front& front, int first, int w, const float* packed, int from, int to) {
   const int m = front.panel.nf - first;
-  for (int j0 = 0; j0 < m; j0 += 4) {
+  for (int j0 = from; j0 < to; j0 += 4) {
     const float* b =
         packed + static_cast<std::size_t>(j0 / stripe) * static_cast<std::size_t>(stripe * w) + j0 % stripe;
     const int columns = std::min(4, m - j0);
@@ -156,80 +202,95 @@ DEM_CLONES void update_trailing(const Front& front, int first, int w, const floa
   }
 }
 
-DEM_CLONES void forward(const Panel<const float>& panel, const double* inverse, double* t) {
-  const int ns = panel.ns, nf = panel.nf;
-  int j = 0;
-  for (; j + 4 <= ns; j += 4) {
-    const float* c0 = panel.column(j);
-    const float* c1 = panel.column(j + 1);
-    const float* c2 = panel.column(j + 2);
-    const float* c3 = panel.column(j + 3);
-    const double y0 = t[j] * inverse[j];
-    const double y1 = (t[j + 1] - c0[j + 1] * y0) * inverse[j + 1];
-    const double y2 = (t[j + 2] - c0[j + 2] * y0 - c1[j + 2] * y1) * inverse[j + 2];
-    const double y3 = (t[j + 3] - c0[j + 3] * y0 - c1[j + 3] * y1 - c2[j + 3] * y2) * inverse[j + 3];
-    t[j] = y0;
-    t[j + 1] = y1;
-    t[j + 2] = y2;
-    t[j + 3] = y3;
-    // What is read next lies before column j + 3.
-    const float* ahead = c3 + j - prefetched;
-    int i = j + 4;
-    for (; i + 4 <= nf; i += 4, ahead -= 16) {
-      __builtin_prefetch(ahead);
-      store(t + i, load(t + i) - ((load(c0 + i) * y0 + load(c1 + i) * y1) + (load(c2 + i) * y2 + load(c3 + i) * y3)));
+// `columns` holds eight columns of 8 * squares rows each. Vectors hold {column q row 2 k, column q row 2 k + 1, ...} of
+// four columns: the x and y of a particle are rounded apart.
+DEM_CLONES void quantise(const float* columns, int squares, float* scale, ThinPanel::Line* out) {
+  const int rows = 8 * squares;
+  for (int half = 0; half < 2; ++half) {
+    const float* c[4];
+    F8 inverse;
+    for (int q = 0; q < 4; ++q) {
+      c[q] = columns + (4 * half + q) * rows;
+      F8 most{};
+      for (int i = 0; i < rows; i += 8) {
+        const F8 v = load8(c[q] + i), size = v < 0 ? -v : v;
+        most = size > most ? size : most;
+      }
+      float top = 0;
+      for (int k = 0; k < 8; ++k) top = most[k] > top ? most[k] : top;
+      scale[4 * half + q] = top / (65536 * steps);
+      inverse[2 * q] = inverse[2 * q + 1] = top > 0 ? steps / top : 0.0F;
     }
-    for (; i < nf; ++i) t[i] -= (c0[i] * y0 + c1[i] * y1) + (c2[i] * y2 + c3[i] * y3);
-  }
-  for (; j < ns; ++j) {
-    const float* c = panel.column(j);
-    const double y = t[j] * inverse[j];
-    t[j] = y;
-    for (int i = j + 1; i < nf; ++i) t[i] -= c[i] * y;
+    constexpr float magic = 12582912.0F;  // 1.5 2^23: adding it rounds to whole numbers
+    F8 carry{};
+    for (int i = 0; i < rows; i += 2) {
+      const F8 in{c[0][i], c[0][i + 1], c[1][i], c[1][i + 1], c[2][i], c[2][i + 1], c[3][i], c[3][i + 1]};
+      const F8 v = in * inverse + carry;
+      const F8 whole = (v + magic) - magic;
+      carry = v - whole;
+      const I8 bits = __builtin_convertvector(whole, I8);
+      for (int q = 0; q < 2; ++q) {
+        unsigned char* square = out[2 * (i / 8) + half].bytes + 32 * q + 4 * (i % 8);
+        const auto word = [&](int at) {
+          return (static_cast<std::uint32_t>(bits[at]) & 0xffffU) | static_cast<std::uint32_t>(bits[at + 2]) << 16;
+        };
+        const std::uint32_t two[2] = {word(4 * q), word(4 * q + 1)};
+        std::memcpy(square, two, sizeof two);
+      }
+    }
   }
 }
 
-DEM_CLONES void backward(const Panel<const float>& panel, const double* inverse, double* t) {
-  const int ns = panel.ns, nf = panel.nf;
-  int j = ns;
-  for (; j % 4 != 0; --j) {
-    const float* c = panel.column(j - 1);
-    double s = 0;
-    for (int i = j; i < nf; ++i) s += c[i] * t[i];
-    t[j - 1] = (t[j - 1] - s) * inverse[j - 1];
+DEM_CLONES void forward(const ThinPanel& panel, float* t) {
+  const ThinPanel::Line* at = panel.data + ThinPanel::lines(panel.ns, panel.nf);
+  for (int b = 0, j = 0; b < panel.blocks(); ++b, j += 8) {
+    const int squares = panel.squares(b);
+    at -= 2 * squares + head_lines;
+    const unsigned char* h = at->bytes;
+    F8 y{};
+    for (int q = 0; q < 8; ++q) y += triangle_column(h, q) * t[j + q];
+    store8(t + j, y);
+    const F8 z = y * scales_of(h);
+    float* out = t + j + 8;
+    const unsigned char* in = at[head_lines].bytes;
+    // What is read next lies before this block, which the processor does not see by itself.
+    const std::ptrdiff_t back = 128 * squares + 64 * (ahead + head_lines);
+    for (int k = 0; k < head_lines; ++k) __builtin_prefetch(in - 64 * (ahead + 2 * head_lines - k));
+    for (int k = 0; k < squares; ++k, out += 8, in += 128) {
+      __builtin_prefetch(in - back);
+      __builtin_prefetch(in - back + 64);
+      F8 v[4];
+      for (int q = 0; q < 4; ++q) {
+        const Two c = load_two(in + 32 * q);
+        v[q] = c.first * z[2 * q] + c.second * z[2 * q + 1];
+      }
+      store8(out, load8(out) - ((v[0] + v[1]) + (v[2] + v[3])));
+    }
   }
-  for (j -= 4; j >= 0; j -= 4) {
-    const float* c0 = panel.column(j);
-    const float* c1 = panel.column(j + 1);
-    const float* c2 = panel.column(j + 2);
-    const float* c3 = panel.column(j + 3);
-    // What is read next lies behind column j; columns are too short for the processor to see that by itself.
-    const float* ahead = c0 + nf + prefetched;
-    V4 s0{}, s1{}, s2{}, s3{};
-    int i = j + 4;
-    for (; i + 4 <= nf; i += 4, ahead += 16) {
-      __builtin_prefetch(ahead);
-      const V4 x = load(t + i);
-      s0 += load(c0 + i) * x;
-      s1 += load(c1 + i) * x;
-      s2 += load(c2 + i) * x;
-      s3 += load(c3 + i) * x;
+}
+
+DEM_CLONES void backward(const ThinPanel& panel, float* t) {
+  const ThinPanel::Line* at = panel.data;
+  for (int b = panel.blocks() - 1, j = 8 * b; b >= 0; --b, j -= 8) {
+    const int squares = panel.squares(b);
+    const unsigned char* h = at->bytes;
+    const unsigned char* in = at[head_lines].bytes;
+    const float* x = t + j + 8;
+    F8 s[8]{};
+    for (int k = 0; k < squares; ++k, x += 8, in += 128) {
+      __builtin_prefetch(in + 64 * ahead);
+      __builtin_prefetch(in + 64 * ahead + 64);
+      const F8 v = load8(x);
+      for (int q = 0; q < 4; ++q) {
+        const Two c = load_two(in + 32 * q);
+        s[2 * q] += c.first * v;
+        s[2 * q + 1] += c.second * v;
+      }
     }
-    double r0 = sum(s0), r1 = sum(s1), r2 = sum(s2), r3 = sum(s3);
-    for (; i < nf; ++i) {
-      r0 += c0[i] * t[i];
-      r1 += c1[i] * t[i];
-      r2 += c2[i] * t[i];
-      r3 += c3[i] * t[i];
-    }
-    const double x3 = (t[j + 3] - r3) * inverse[j + 3];
-    const double x2 = (t[j + 2] - r2 - c2[j + 3] * x3) * inverse[j + 2];
-    const double x1 = (t[j + 1] - r1 - c1[j + 2] * x2 - c1[j + 3] * x3) * inverse[j + 1];
-    const double x0 = (t[j] - r0 - c0[j + 1] * x1 - c0[j + 2] * x2 - c0[j + 3] * x3) * inverse[j];
-    t[j] = x0;
-    t[j + 1] = x1;
-    t[j + 2] = x2;
-    t[j + 3] = x3;
+    at += 2 * squares + head_lines;
+    const F8 v = load8(t + j) - sums(s) * scales_of(h);
+    for (int q = 0; q < 8; ++q) s[q] = triangle_column(h, q) * v;
+    store8(t + j, sums(s));
   }
 }
 
@@ -242,6 +303,18 @@ DEM_CLONES double dot_of(const double* a, const double* b, std::size_t n) {
   }
   double r = sum(s0) + sum(s1);
   for (; i < n; ++i) r += a[i] * b[i];
+  return r;
+}
+
+DEM_CLONES double dot_of(const float* a, const float* b, std::size_t n) {
+  V4 s0{}, s1{};
+  std::size_t i = 0;
+  for (; i + 8 <= n; i += 8) {
+    s0 += load(a + i) * load(b + i);
+    s1 += load(a + i + 4) * load(b + i + 4);
+  }
+  double r = sum(s0) + sum(s1);
+  for (; i < n; ++i) r += static_cast<double>(a[i]) * static_cast<double>(b[i]);
   return r;
 }
 
@@ -280,13 +353,62 @@ int partial_cholesky(const Panel<float>& panel, const Packed<float>& rest, std::
         std::copy(in, in + std::min(stripe, m - stripe * s), out + stripe * s);
       }
     }
-    update_trailing(front, first, w, packed.data());
+    // A large front is shared among threads: every element is still made by one of them, in the same order.
+    const bool shared = m >= shared_rows;
+#pragma omp taskgroup
+    for (int from = 0; from < m;) {
+      // Columns get shorter: the last parts are wider.
+      const int to = shared ? std::min(m, from + std::max(32, m * m / (16 * (m - from)) / 4 * 4)) : m;
+#pragma omp task if (shared) default(shared) firstprivate(from, to)
+      update_trailing(front, first, w, packed.data(), from, to);
+      from = to;
+    }
   }
   return negative;
 }
 
-void panel_forward(const Panel<const float>& panel, const double* inverse, double* t) { forward(panel, inverse, t); }
-void panel_backward(const Panel<const float>& panel, const double* inverse, double* t) { backward(panel, inverse, t); }
+std::size_t ThinPanel::lines(int ns, int nf) {
+  const ThinPanel p{nullptr, ns, nf};
+  std::size_t total = 0;
+  for (int b = 0; b < p.blocks(); ++b) total += static_cast<std::size_t>(2 * p.squares(b) + head_lines);
+  return total;
+}
+
+static_assert(sizeof(float[head_floats]) == head_lines * sizeof(ThinPanel::Line));
+
+void compress(const Panel<const float>& panel, const ThinPanel& thin) {
+  const int ns = panel.ns;
+  ThinPanel::Line* at = thin.data + ThinPanel::lines(ns, panel.nf);
+  std::vector<float> columns(8 * thin.vector());
+  for (int b = 0, j = 0; b < thin.blocks(); ++b, j += 8) {
+    const int squares = thin.squares(b), count = std::min(8, ns - j), below = std::max(0, ns - j - 8);
+    at -= 2 * squares + head_lines;
+    float head[head_floats] = {};
+    std::fill_n(columns.begin(), static_cast<std::size_t>(64 * squares), 0.0F);
+    float triangle[8][8] = {};  // [column][row]
+    for (int q = 0; q < count; ++q) {
+      const float* in = panel.column(j + q);
+      std::copy(in + j + q, in + j + count, triangle[q] + q);
+      float* out = columns.data() + 8 * squares * q;
+      std::copy(in + j + 8, in + j + 8 + below, out);
+      std::copy(in + ns, in + panel.nf, out + thin.own() - j - 8);
+    }
+    for (int q = 0; q < count; ++q) {  // column q of the inverse, from the top down
+      float* out = head + column_of_triangle(q);
+      for (int i = q; i < count; ++i) {
+        float left = i == q ? 1.0F : 0.0F;
+        for (int p = q; p < i; ++p) left -= triangle[p][i] * out[p];
+        out[i] = left / triangle[i][i];
+      }
+    }
+    quantise(columns.data(), squares, head, at + head_lines);
+    std::memcpy(at, head, sizeof head);
+  }
+}
+
+void panel_forward(const ThinPanel& panel, float* t) { forward(panel, t); }
+void panel_backward(const ThinPanel& panel, float* t) { backward(panel, t); }
 double dot(const double* a, const double* b, std::size_t n) { return dot_of(a, b, n); }
+double dot(const float* a, const float* b, std::size_t n) { return dot_of(a, b, n); }
 
 }  // namespace dem::sheet

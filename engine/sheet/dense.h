@@ -2,23 +2,24 @@
 // Dense kernels of the sheet's factorisation: the partial Cholesky of a front, and the triangular solves with its
 // panel. Every element is accumulated in one fixed order, so results are the same bits for every vector width.
 //
-// Fronts are in single precision: they precondition, equilibrium itself is judged by the true forces in double. A
-// panel keeps its columns from the diagonal down, the last column first: the backward sweep, which visits every node
-// from the root down, then reads memory once from one end to the other.
+// Fronts are in single precision, and what sweeps read of them in sixteen bits: they precondition, equilibrium itself
+// is judged by the true forces in double. A sweep costs what it takes to read the factor once.
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 namespace dem::sheet {
 
-/// Where row 0 of column j of a panel would be: column(j)[i] is element (i, j), i >= j. `ns` columns, `nf` rows.
+/// The leading `ns` columns of a symmetric front of order `nf`, from the diagonal down, column by column: column(j)[i]
+/// is element (i, j), i >= j.
 template <class Float>
 struct Panel {
   Float* data = nullptr;
   int ns = 0, nf = 0;
 
   [[nodiscard]] Float* column(int j) const {
-    const auto n = static_cast<std::ptrdiff_t>(ns), f = static_cast<std::ptrdiff_t>(nf), c = std::ptrdiff_t{j};
-    return data + ((n - 1 - c) * f - ((n - 1) * n - c * (c + 1)) / 2 - c);
+    const auto f = static_cast<std::ptrdiff_t>(nf), c = std::ptrdiff_t{j};
+    return data + (c * f - c * (c + 1) / 2);
   }
   [[nodiscard]] static std::size_t size(int ns, int nf) {
     const auto n = static_cast<std::size_t>(ns), f = static_cast<std::size_t>(nf);
@@ -57,12 +58,37 @@ struct PivotRule {
 int partial_cholesky(const Panel<float>& panel, const Packed<float>& rest, std::span<const float> diagonal,
                      PivotRule rule);
 
-/// t[0..ns) = L_ss^-1 t[0..ns); t[ns..nf) -= L_bs t[0..ns). `inverse` holds 1 / L_jj.
-void panel_forward(const Panel<const float>& panel, const double* inverse, double* t);
-/// t[0..ns) = L_ss^-T (t[0..ns) - L_bs^T t[ns..nf)).
-void panel_backward(const Panel<const float>& panel, const double* inverse, double* t);
+/// A factorised panel as sweeps read it: blocks of eight columns, each three lines of what is exact (the inverse of its
+/// triangle) and two lines for every eight rows below it, in sixteen bits on a scale of each column. Rounding is
+/// carried on to the next row of the same direction, so that a column acts on smooth displacements nearly as it did.
+/// Blocks lie last first, the way the backward sweep reads them. Own rows are padded to a multiple of eight: row ns of
+/// the front is row `own()` of a vector.
+struct ThinPanel {
+  struct alignas(64) Line {
+    unsigned char bytes[64];
+  };
+  Line* data = nullptr;
+  int ns = 0, nf = 0;
+
+  [[nodiscard]] int own() const { return (ns + 7) / 8 * 8; }
+  [[nodiscard]] int blocks() const { return own() / 8; }
+  /// Squares of eight rows below the triangle of a block.
+  [[nodiscard]] int squares(int block) const { return (own() - 8 * (block + 1) + nf - ns + 7) / 8; }
+  /// Length of the vector that a sweep works on: what is beyond the last row must be zero.
+  [[nodiscard]] std::size_t vector() const { return static_cast<std::size_t>(own() + (nf - ns + 7) / 8 * 8); }
+  [[nodiscard]] static std::size_t lines(int ns, int nf);
+};
+
+/// Writes a factorised panel into `thin`, whose ns and nf are those of the panel.
+void compress(const Panel<const float>& panel, const ThinPanel& thin);
+
+/// t[0..ns) = L_ss^-1 t[0..ns); t[own..) -= L_bs t[0..ns).
+void panel_forward(const ThinPanel& panel, float* t);
+/// t[0..ns) = L_ss^-T (t[0..ns) - L_bs^T t[own..)).
+void panel_backward(const ThinPanel& panel, float* t);
 
 /// Sum of a[i] b[i] in a fixed order.
 double dot(const double* a, const double* b, std::size_t n);
+double dot(const float* a, const float* b, std::size_t n);
 
 }  // namespace dem::sheet

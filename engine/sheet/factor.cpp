@@ -5,7 +5,7 @@
 namespace dem::sheet {
 namespace {
 
-constexpr int task_particles = 2000;  // subtrees smaller than this are one task
+constexpr int task_particles = 2000;  // subtrees smaller than this (or an eighth of the lattice) are one task
 constexpr int small_particles = 100;  // subtrees smaller than this are factorised as one
 
 }  // namespace
@@ -48,7 +48,7 @@ Dissection::Dissection(const Lattice& sheet, int leaf_particles) : lattice(sheet
   panel_offset.resize(nodes.size());
   for (std::size_t k = nodes.size(); k-- > 0;) {
     panel_offset[k] = panel_size;
-    panel_size += Panel<float>::size(2 * nodes[k].own(), 2 * nodes[k].front());
+    panel_size += ThinPanel::lines(2 * nodes[k].own(), 2 * nodes[k].front());
   }
   for (const Node& node : nodes) {
     update_offset.push_back(update_size);
@@ -163,7 +163,6 @@ Factor::Factor(const Dissection& dissection, int threads, Again again)
       again_(again),
       panels_(dissection.panel_size),
       schur_(dissection.nodes.size()),
-      inverse_(2 * dissection.order.size()),
       updates_(dissection.update_size) {}
 
 int Factor::subtree(int index) const {
@@ -173,7 +172,7 @@ int Factor::subtree(int index) const {
 
 bool Factor::small(int index) const { return subtree(index) <= small_particles; }
 
-Panel<const float> Factor::panel(int index) const {
+ThinPanel Factor::panel(int index) {
   const auto& node = dissection_->nodes[static_cast<std::size_t>(index)];
   return {panels_.data() + dissection_->panel_offset[static_cast<std::size_t>(index)], 2 * node.own(),
           2 * node.front()};
@@ -184,8 +183,9 @@ void Factor::eliminate(int index, Job& job) {
   const auto& node = d.nodes[static_cast<std::size_t>(index)];
   const BlockMatrix& matrix = job.matrix;
   const int ns = 2 * node.own();
-  const Panel<float> panel{panels_.data() + d.panel_offset[static_cast<std::size_t>(index)], ns, 2 * node.front()};
-  std::fill_n(panel.data, Panel<float>::size(panel.ns, panel.nf), 0.0F);
+  const int nf = 2 * node.front();
+  std::vector<float> columns(Panel<float>::size(ns, nf));
+  const Panel<float> panel{columns.data(), ns, nf};
   auto& schur = schur_[static_cast<std::size_t>(index)];
   schur.assign(Packed<float>::size(2 * node.rest()), 0.0F);
   const Packed<float> rest{schur.data(), 2 * node.rest()};
@@ -248,9 +248,7 @@ void Factor::eliminate(int index, Job& job) {
     if (again_ == Again::whole || small(index)) std::vector<float>().swap(update);
   }
   job.raised[static_cast<std::size_t>(index)] = partial_cholesky(panel, rest, diagonal, job.rule);
-  for (int j = 0; j < ns; ++j) {
-    inverse_[static_cast<std::size_t>(2 * node.begin + j)] = 1.0 / static_cast<double>(panel.column(j)[j]);
-  }
+  compress({panel.data, ns, nf}, this->panel(index));
 }
 
 void Factor::visit(int index, Job& job) {
@@ -260,7 +258,7 @@ void Factor::visit(int index, Job& job) {
     for (int i = node.first; i <= index; ++i) eliminate(i, job);
     return;
   }
-  const bool task = subtree(index) > task_particles;
+  const bool task = subtree(index) > std::min(task_particles, dissection_->lattice.particles() / 8);
 #pragma omp task if (task) default(shared)
   visit(node.child[0], job);
   visit(node.child[1], job);
@@ -303,34 +301,46 @@ int Factor::factorise(const BlockMatrix& matrix, std::span<const std::uint8_t> s
   return total;
 }
 
-void Factor::forward_node(int index, double* y, const std::uint8_t* active, std::vector<double>& t) {
+// What children hand up, then the sweep over the node's own; what is left is handed on.
+void Factor::hand_up(int index, const ThinPanel& panel, std::span<const int> children, std::vector<float>& t) {
   const Dissection& d = *dissection_;
   const auto& node = d.nodes[static_cast<std::size_t>(index)];
-  const int ns = 2 * node.own(), nf = 2 * node.front();
-  t.assign(static_cast<std::size_t>(nf), 0.0);
-  double* own = y + 2 * node.begin;
-  std::copy(own, own + ns, t.begin());
-  for (const int c : node.child) {
-    if (c < 0 || !active[c]) continue;
+  const int pad = panel.own() - panel.ns;
+  for (const int c : children) {
     const auto& child = d.nodes[static_cast<std::size_t>(c)];
-    const double* in = updates_.data() + d.update_offset[static_cast<std::size_t>(c)];
+    const float* in = updates_.data() + d.update_offset[static_cast<std::size_t>(c)];
     for (std::size_t k = 0; k < child.boundary.size(); ++k) {
-      const auto row = 2 * static_cast<std::size_t>(child.place_in_parent[k]);
+      const int place = child.place_in_parent[k];
+      const auto row = static_cast<std::size_t>(2 * place + (place < node.own() ? 0 : pad));
       t[row] += in[2 * k];
       t[row + 1] += in[2 * k + 1];
     }
   }
-  panel_forward(panel(index), inverse_.data() + 2 * node.begin, t.data());
-  std::copy(t.begin(), t.begin() + ns, own);
-  std::copy(t.begin() + ns, t.begin() + nf, updates_.data() + d.update_offset[static_cast<std::size_t>(index)]);
+  panel_forward(panel, t.data());
+  const auto rest = t.begin() + panel.own();
+  std::copy(rest, rest + 2 * node.rest(), updates_.data() + d.update_offset[static_cast<std::size_t>(index)]);
 }
 
-void Factor::visit_up(int index, double* y, const std::uint8_t* active) {
+void Factor::forward_node(int index, float* y, const std::uint8_t* active, std::vector<float>& t) {
+  const auto& node = dissection_->nodes[static_cast<std::size_t>(index)];
+  const ThinPanel panel = this->panel(index);
+  t.assign(panel.vector(), 0.0F);
+  float* own = y + 2 * node.begin;
+  std::copy(own, own + panel.ns, t.begin());
+  int children[2], count = 0;
+  for (const int c : node.child) {
+    if (c >= 0 && active[c]) children[count++] = c;
+  }
+  hand_up(index, panel, std::span(children, static_cast<std::size_t>(count)), t);
+  std::copy(t.begin(), t.begin() + panel.ns, own);
+}
+
+void Factor::visit_up(int index, float* y, const std::uint8_t* active) {
   const auto& d = *dissection_;
   const auto& node = d.nodes[static_cast<std::size_t>(index)];
   if (!active[index]) return;
   if (node.end - d.nodes[static_cast<std::size_t>(node.first)].begin <= task_particles) {
-    std::vector<double> t;
+    std::vector<float> t;
     for (int i = node.first; i <= index; ++i) {
       if (active[i]) forward_node(i, y, active, t);
     }
@@ -340,41 +350,42 @@ void Factor::visit_up(int index, double* y, const std::uint8_t* active) {
   visit_up(node.child[0], y, active);
   visit_up(node.child[1], y, active);
 #pragma omp taskwait
-  std::vector<double> t;
+  std::vector<float> t;
   forward_node(index, y, active, t);
 }
 
-void Factor::forward(std::span<double> y, std::span<const std::uint8_t> active) {
+void Factor::forward(std::span<float> y, std::span<const std::uint8_t> active) {
 #pragma omp parallel num_threads(threads_)
 #pragma omp single
   visit_up(static_cast<int>(dissection_->nodes.size()) - 1, y.data(), active.data());
 }
 
-void Factor::backward_node(int index, double* x, std::vector<double>& t) {
-  const Dissection& d = *dissection_;
-  const auto& node = d.nodes[static_cast<std::size_t>(index)];
-  const int ns = 2 * node.own(), nf = 2 * node.front();
-  if (t.size() < static_cast<std::size_t>(nf)) t.resize(static_cast<std::size_t>(nf));
-  double* own = x + 2 * node.begin;
-  std::copy(own, own + ns, t.begin());
-  for (std::size_t k = 0; k < node.boundary.size(); ++k) {
-    const double* in = x + 2 * node.boundary[k];
-    t[static_cast<std::size_t>(ns) + 2 * k] = in[0];
-    t[static_cast<std::size_t>(ns) + 2 * k + 1] = in[1];
+void Factor::backward_node(int index, float* x, std::vector<float>& t) {
+  const auto& node = dissection_->nodes[static_cast<std::size_t>(index)];
+  const ThinPanel panel = this->panel(index);
+  if (t.size() < panel.vector()) t.resize(panel.vector());
+  float* own = x + 2 * node.begin;
+  std::copy(own, own + panel.ns, t.begin());
+  std::fill(t.begin() + panel.ns, t.begin() + panel.own(), 0.0F);
+  float* rest = t.data() + panel.own();
+  for (const int position : node.boundary) {
+    *rest++ = x[2 * position];
+    *rest++ = x[2 * position + 1];
   }
-  panel_backward(panel(index), inverse_.data() + 2 * node.begin, t.data());
-  std::copy(t.begin(), t.begin() + ns, own);
+  std::fill(rest, t.data() + panel.vector(), 0.0F);
+  panel_backward(panel, t.data());
+  std::copy(t.begin(), t.begin() + panel.ns, own);
 }
 
-void Factor::visit_down(int index, double* x) {
+void Factor::visit_down(int index, float* x) {
   const auto& d = *dissection_;
   const auto& node = d.nodes[static_cast<std::size_t>(index)];
   if (node.end - d.nodes[static_cast<std::size_t>(node.first)].begin <= task_particles) {
-    std::vector<double> t;
+    std::vector<float> t;
     for (int i = index; i >= node.first; --i) backward_node(i, x, t);
     return;
   }
-  std::vector<double> t;
+  std::vector<float> t;
   backward_node(index, x, t);
 #pragma omp task default(shared)
   visit_down(node.child[0], x);
@@ -382,7 +393,7 @@ void Factor::visit_down(int index, double* x) {
 #pragma omp taskwait
 }
 
-void Factor::backward(std::span<double> x) {
+void Factor::backward(std::span<float> x) {
 #pragma omp parallel num_threads(threads_)
 #pragma omp single
   visit_down(static_cast<int>(dissection_->nodes.size()) - 1, x.data());
@@ -399,29 +410,23 @@ PathVector Factor::forward_path(std::span<const std::pair<int, std::array<double
   }
   std::sort(path.nodes.begin(), path.nodes.end());
   path.nodes.erase(std::unique(path.nodes.begin(), path.nodes.end()), path.nodes.end());
-  std::vector<double> t;
+  std::vector<float> t;
   for (const int index : path.nodes) {
     const auto& node = d.nodes[static_cast<std::size_t>(index)];
-    const int ns = 2 * node.own(), nf = 2 * node.front();
-    t.assign(static_cast<std::size_t>(nf), 0.0);
+    const ThinPanel panel = this->panel(index);
+    t.assign(panel.vector(), 0.0F);
     for (const auto& [position, force] : load) {
       if (position < node.begin || position >= node.end) continue;
-      t[static_cast<std::size_t>(2 * (position - node.begin))] += force[0];
-      t[static_cast<std::size_t>(2 * (position - node.begin) + 1)] += force[1];
+      const auto row = static_cast<std::size_t>(2 * (position - node.begin));
+      t[row] += static_cast<float>(force[0]);
+      t[row + 1] += static_cast<float>(force[1]);
     }
+    int children[2], count = 0;
     for (const int c : node.child) {
-      if (c < 0 || !std::binary_search(path.nodes.begin(), path.nodes.end(), c)) continue;
-      const auto& child = d.nodes[static_cast<std::size_t>(c)];
-      const double* in = updates_.data() + d.update_offset[static_cast<std::size_t>(c)];
-      for (std::size_t k = 0; k < child.boundary.size(); ++k) {
-        const auto row = 2 * static_cast<std::size_t>(child.place_in_parent[k]);
-        t[row] += in[2 * k];
-        t[row + 1] += in[2 * k + 1];
-      }
+      if (c >= 0 && std::binary_search(path.nodes.begin(), path.nodes.end(), c)) children[count++] = c;
     }
-    panel_forward(panel(index), inverse_.data() + 2 * node.begin, t.data());
-    path.values.insert(path.values.end(), t.begin(), t.begin() + ns);
-    std::copy(t.begin() + ns, t.end(), updates_.data() + d.update_offset[static_cast<std::size_t>(index)]);
+    hand_up(index, panel, std::span(children, static_cast<std::size_t>(count)), t);
+    path.values.insert(path.values.end(), t.begin(), t.begin() + panel.ns);
   }
   return path;
 }

@@ -64,7 +64,7 @@ class Dissection {
   std::vector<int> order;     ///< particle at each position
   std::vector<int> position;  ///< position of each particle
   std::vector<int> node_of;   ///< node that eliminates each position
-  /// Of each node. Panels lie from the root down, the way the backward sweep reads them.
+  /// Of each node. Panels lie from the root down, the way the backward sweep reads them; offsets and size in lines.
   std::vector<std::size_t> panel_offset, update_offset;
   std::size_t panel_size = 0, update_size = 0;
 
@@ -75,12 +75,12 @@ class Dissection {
 
 /// The entries of L^-1 b for a load b on few particles: nonzero on the path from their nodes to the root.
 struct PathVector {
-  std::vector<int> nodes;      ///< ascending
-  std::vector<double> values;  ///< of each node's positions, x and y, one node after the other
+  std::vector<int> nodes;     ///< ascending
+  std::vector<float> values;  ///< of each node's positions, x and y, one node after the other
 };
 
-/// The numeric factor, in single precision; sums of a solve are made in double. Vectors hold x and y of each particle,
-/// in elimination order.
+/// The numeric factor, made in single precision and kept in sixteen bits (see ThinPanel). Vectors hold x and y of each
+/// particle, in elimination order.
 class Factor {
  public:
   /// Whether parts of the tree can be factorised anew later: costs about the memory of the panels once more.
@@ -100,14 +100,15 @@ class Factor {
   [[nodiscard]] double operations(std::span<const std::uint8_t> stale) const;
 
   /// y = L^-1 y for the nodes in `active` (a flag a node, closed towards the root); y is zero elsewhere and stays so.
-  void forward(std::span<double> y, std::span<const std::uint8_t> active);
+  void forward(std::span<float> y, std::span<const std::uint8_t> active);
   /// x = L^-T x, everywhere.
-  void backward(std::span<double> x);
+  void backward(std::span<float> x);
   /// L^-1 b for a load on a few particles ({position, {x, y}}).
   [[nodiscard]] PathVector forward_path(std::span<const std::pair<int, std::array<double, 2>>> load);
 
   [[nodiscard]] const Dissection& dissection() const { return *dissection_; }
-  [[nodiscard]] std::size_t entries() const { return panels_.size(); }
+  /// Bytes that a sweep over all reads.
+  [[nodiscard]] std::size_t bytes() const { return sizeof(ThinPanel::Line) * panels_.size(); }
 
  private:
   struct Job {
@@ -120,19 +121,19 @@ class Factor {
   [[nodiscard]] bool small(int node) const;   // always factorised with all below it
   void visit(int node, Job& job);
   void eliminate(int node, Job& job);
-  [[nodiscard]] Panel<const float> panel(int node) const;
-  void forward_node(int node, double* y, const std::uint8_t* active, std::vector<double>& t);
-  void backward_node(int node, double* x, std::vector<double>& t);
-  void visit_up(int node, double* y, const std::uint8_t* active);
-  void visit_down(int node, double* x);
+  [[nodiscard]] ThinPanel panel(int node);
+  void forward_node(int node, float* y, const std::uint8_t* active, std::vector<float>& t);
+  void hand_up(int node, const ThinPanel& panel, std::span<const int> children, std::vector<float>& t);
+  void backward_node(int node, float* x, std::vector<float>& t);
+  void visit_up(int node, float* y, const std::uint8_t* active);
+  void visit_down(int node, float* x);
 
   const Dissection* dissection_;
   int threads_;
   Again again_;
-  std::vector<float> panels_;
+  std::vector<ThinPanel::Line> panels_;
   std::vector<std::vector<float>> schur_;  // what a node hands to its parent in the factorisation
-  std::vector<double> inverse_;            // 1 / L_jj
-  std::vector<double> updates_;            // what a node hands to its parent in a forward sweep
+  std::vector<float> updates_;             // what a node hands to its parent in a forward sweep
 };
 
 }  // namespace dem::sheet

@@ -77,7 +77,7 @@ double ModifiedFactor::change(double c, int i, int j, std::array<double, 2> n, s
   return c;
 }
 
-void ModifiedFactor::correct(std::span<double> y) const {
+void ModifiedFactor::correct(std::span<float> y) const {
   const Dissection& d = factor_.dissection();
   const auto m = paths_.size();
   std::vector<double> a(m);
@@ -104,25 +104,38 @@ void ModifiedFactor::correct(std::span<double> y) const {
   }
   for (std::size_t k = 0; k < m; ++k) {
     each(paths_[k], [&](std::size_t to, std::size_t at, std::size_t n) {
-      const double* v = paths_[k].values.data() + at;
-      double* out = y.data() + to;
-      for (std::size_t q = 0; q < n; ++q) out[q] -= a[k] * v[q];
+      const float* v = paths_[k].values.data() + at;
+      float* out = y.data() + to;
+      const auto share = static_cast<float>(a[k]);
+      for (std::size_t q = 0; q < n; ++q) out[q] -= share * v[q];
     });
   }
 }
 
 void ModifiedFactor::solve(std::span<double> b) {
   const Dissection& d = factor_.dissection();
-  active_.assign(d.nodes.size(), 0);
-  for (std::size_t k = 0; k < d.nodes.size(); ++k) {
-    const auto& node = d.nodes[k];
-    const auto own = b.subspan(2 * static_cast<std::size_t>(node.begin), 2 * static_cast<std::size_t>(node.own()));
-    if (!active_[k]) active_[k] = std::any_of(own.begin(), own.end(), [](double v) { return v != 0; }) ? 1 : 0;
-    if (active_[k] && node.parent >= 0) active_[static_cast<std::size_t>(node.parent)] = 1;
+  const auto nodes = d.nodes.size();
+  active_.assign(nodes, 0);
+  y_.resize(b.size());
+#pragma omp parallel for schedule(static) num_threads(threads_)
+  for (std::size_t k = 0; k < nodes; ++k) {
+    const auto begin = 2 * static_cast<std::size_t>(d.nodes[k].begin),
+               end = 2 * static_cast<std::size_t>(d.nodes[k].end);
+    bool loaded = false;
+    for (auto i = begin; i < end; ++i) {
+      y_[i] = static_cast<float>(b[i]);
+      loaded = loaded || b[i] != 0;
+    }
+    active_[k] = loaded ? 1 : 0;
   }
-  factor_.forward(b, active_);
-  if (!paths_.empty()) correct(b);
-  factor_.backward(b);
+  for (std::size_t k = 0; k + 1 < nodes; ++k) {
+    if (active_[k]) active_[static_cast<std::size_t>(d.nodes[k].parent)] = 1;
+  }
+  factor_.forward(y_, active_);
+  if (!paths_.empty()) correct(y_);
+  factor_.backward(y_);
+#pragma omp parallel for simd schedule(static) num_threads(threads_)
+  for (std::size_t i = 0; i < b.size(); ++i) b[i] = static_cast<double>(y_[i]);
 }
 
 }  // namespace dem::sheet

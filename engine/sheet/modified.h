@@ -11,7 +11,7 @@ namespace dem::sheet {
 class ModifiedFactor {
  public:
   ModifiedFactor(const Dissection& dissection, int threads, Factor::Again again = Factor::Again::whole)
-      : factor_(dissection, threads, again) {}
+      : factor_(dissection, threads, again), threads_(threads) {}
 
   /// Takes a new K0 and forgets all changes; returns the number of negative pivots.
   int factorise(const BlockMatrix& matrix, PivotRule rule = {});
@@ -30,13 +30,15 @@ class ModifiedFactor {
   [[nodiscard]] Factor& factor() { return factor_; }
 
  private:
-  void correct(std::span<double> y) const;
+  void correct(std::span<float> y) const;
 
   Factor factor_;
+  int threads_;
   std::vector<PathVector> paths_;           // Y = L^-1 B
   std::vector<std::vector<double>> lower_;  // rows of the unit lower factor of S = C^-1 + Y^T Y = L D L^T
   std::vector<double> pivots_;              // D
   std::vector<std::uint8_t> active_;
+  std::vector<float> y_;
 };
 
 }  // namespace dem::sheet

@@ -17,45 +17,6 @@ int slot_between(const Sheet& s, int i, int direction, int j) {
   return direction < 3 ? direction * s.particles() + i : (direction - 3) * s.particles() + j;
 }
 
-// Tensions and lengths of all slots that touch the box, then the forces on its particles and on those around it.
-void update_forces(const Sheet& s, Forces& f, const PatchBox& box) {
-  const int columns = s.lattice.columns;
-  for (int r = box.r0; r < box.r1; ++r) {
-    for (int c = box.c0; c < box.c1; ++c) {
-      const int i = r * columns + c;
-      for (int d = 0; d < 6; ++d) {
-        const int j = s.lattice.neighbour(i, d);
-        if (j < 0) continue;
-        const auto k = static_cast<std::size_t>(slot_between(s, i, d, j));
-        const auto p = static_cast<std::size_t>(i), q = static_cast<std::size_t>(j);
-        const double dx = s.x[q] - s.x[p], dy = s.y[q] - s.y[p];
-        const double length = std::sqrt(dx * dx + dy * dy);
-        const double tension = s.stiffness[k] * (length - (s.radius[p] + s.radius[q]));
-        f.length[k] = length;
-        f.tension[k] = (s.joined[k] == 0 && tension > 0) ? 0.0 : tension;
-      }
-    }
-  }
-  for (int r = std::max(0, box.r0 - 1); r < std::min(s.lattice.rows, box.r1 + 1); ++r) {
-    for (int c = std::max(0, box.c0 - 1); c < std::min(columns, box.c1 + 1); ++c) {
-      const int i = r * columns + c;
-      const auto p = static_cast<std::size_t>(i);
-      double fx = 0, fy = 0;
-      for (int d = 0; d < 6; ++d) {
-        const int j = s.lattice.neighbour(i, d);
-        if (j < 0) continue;
-        const auto k = static_cast<std::size_t>(slot_between(s, i, d, j));
-        const auto q = static_cast<std::size_t>(j);
-        const double per_length = f.tension[k] / f.length[k];
-        fx += per_length * (s.x[q] - s.x[p]);
-        fy += per_length * (s.y[q] - s.y[p]);
-      }
-      f.x[p] = fx;
-      f.y[p] = fy;
-    }
-  }
-}
-
 }  // namespace
 
 struct Patches::Local {
@@ -63,10 +24,10 @@ struct Patches::Local {
   Factor factor;
   BlockMatrix matrix;
   std::vector<std::uint8_t> active;
-  std::vector<double> u;
+  std::vector<float> u;
 
-  explicit Local(const Lattice& lattice)
-      : dissection(lattice), factor(dissection, 1), active(dissection.nodes.size(), 1) {
+  Local(const Lattice& lattice, int threads)
+      : dissection(lattice), factor(dissection, threads), active(dissection.nodes.size(), 1) {
     const auto n = static_cast<std::size_t>(lattice.particles());
     matrix.diagonal.resize(n);
     matrix.coupling.resize(3 * n);
@@ -75,29 +36,29 @@ struct Patches::Local {
   }
 };
 
-PatchBox Patches::around(const Lattice& lattice, int column, int row) {
+LatticeBox Patches::around(const Lattice& lattice, int column, int row) {
   const auto fit = [](int at, int all, int& begin, int& end) {
     const int length = std::min(side, all);
     begin = std::clamp(at - length / 2, 0, all - length);
     end = begin + length;
   };
-  PatchBox box;
+  LatticeBox box;
   fit(column, lattice.columns, box.c0, box.c1);
   fit(row, lattice.rows, box.r0, box.r1);
   return box;
 }
 
-bool Patches::covers(const Lattice& lattice, const PatchBox& box, int column, int row) {
+bool Patches::covers(const Lattice& lattice, const LatticeBox& box, int column, int row) {
   const auto inside = [](int at, int begin, int end, int all) {
     return at >= (begin > 0 ? begin + rim : 0) && at < (end < all ? end - rim : all);
   };
   return inside(column, box.c0, box.c1, lattice.columns) && inside(row, box.r0, box.r1, lattice.rows);
 }
 
-void Patches::relax(Sheet& sheet, Forces& forces, const PatchBox& box, double small) {
+void Patches::relax(Sheet& sheet, Forces& forces, const LatticeBox& box, double small) {
   const Lattice lattice{box.c1 - box.c0, box.r1 - box.r0, sheet.lattice.shifted(box.r0)};
   auto& entry = shapes_[{lattice.columns, lattice.rows, lattice.first_row_shifted}];
-  if (!entry) entry = std::make_shared<Local>(lattice);
+  if (!entry) entry = std::make_shared<Local>(lattice, threads_);
   Local& local = *entry;
   const int n = lattice.particles();
   const auto global = [&](int i) {
@@ -121,7 +82,7 @@ void Patches::relax(Sheet& sheet, Forces& forces, const PatchBox& box, double sm
         const auto p = global(i);
         Block sum{0, 0, 0};
         double stiffest = 0;
-        int springs = 0;
+        bool loose = false;
         for (int d = 0; d < 6; ++d) {
           const int j = sheet.lattice.neighbour(static_cast<int>(p), d);
           if (j < 0) continue;
@@ -129,10 +90,10 @@ void Patches::relax(Sheet& sheet, Forces& forces, const PatchBox& box, double sm
           const Block b = tangent_block(sheet, forces, slot, tangent);
           for (std::size_t q = 0; q < 3; ++q) sum[q] += b[q];
           stiffest = std::max(stiffest, sheet.stiffness[static_cast<std::size_t>(slot)]);
-          springs += active(sheet, forces, slot) ? 1 : 0;
+          loose = loose || (sheet.stiffness[static_cast<std::size_t>(slot)] > 0 && !active(sheet, forces, slot));
           if (d < 3) local.matrix.coupling[static_cast<std::size_t>(d * n + i)] = {-b[0], -b[1], -b[2]};
         }
-        if (springs <= 2) sum[0] += 1e-3 * stiffest, sum[2] += 1e-3 * stiffest;
+        hold(sum, stiffest, loose);
         local.matrix.diagonal[static_cast<std::size_t>(i)] = sum;
         local.matrix.fixed[static_cast<std::size_t>(i)] = sheet.fixed[p];
       }
@@ -142,20 +103,20 @@ void Patches::relax(Sheet& sheet, Forces& forces, const PatchBox& box, double sm
     double most = 0;
     for (int at = 0; at < n; ++at) {
       const auto p = global(local.dissection.order[static_cast<std::size_t>(at)]);
-      local.u[2 * static_cast<std::size_t>(at)] = (sheet.fixed[p] & 1) ? 0.0 : forces.x[p];
-      local.u[2 * static_cast<std::size_t>(at) + 1] = (sheet.fixed[p] & 2) ? 0.0 : forces.y[p];
+      local.u[2 * static_cast<std::size_t>(at)] = (sheet.fixed[p] & 1) ? 0.0F : static_cast<float>(forces.x[p]);
+      local.u[2 * static_cast<std::size_t>(at) + 1] = (sheet.fixed[p] & 2) ? 0.0F : static_cast<float>(forces.y[p]);
     }
     local.factor.forward(local.u, local.active);
     local.factor.backward(local.u);
-    for (const double u : local.u) most = std::max(most, std::fabs(u));
+    for (const float u : local.u) most = std::max(most, static_cast<double>(std::fabs(u)));
     if (!std::isfinite(dot(local.u.data(), local.u.data(), local.u.size()))) return;
     const double longest = longest_step * sheet.radius0;
     const double share = most > longest ? longest / most : 1.0;
     const auto step = [&](double part) {
       for (int at = 0; at < n; ++at) {
         const auto p = global(local.dissection.order[static_cast<std::size_t>(at)]);
-        sheet.x[p] += part * local.u[2 * static_cast<std::size_t>(at)];
-        sheet.y[p] += part * local.u[2 * static_cast<std::size_t>(at) + 1];
+        sheet.x[p] += part * static_cast<double>(local.u[2 * static_cast<std::size_t>(at)]);
+        sheet.y[p] += part * static_cast<double>(local.u[2 * static_cast<std::size_t>(at) + 1]);
       }
       update_forces(sheet, forces, box);
     };

@@ -10,25 +10,23 @@
 
 namespace dem::sheet {
 
-/// Columns [c0, c1) and rows [r0, r1) of the lattice.
-struct PatchBox {
-  int c0 = 0, c1 = 0, r0 = 0, r1 = 0;
-};
-
 class Patches {
  public:
   /// The box of 48 particles a side around a particle, moved inside the lattice where it would stick out.
-  [[nodiscard]] static PatchBox around(const Lattice& lattice, int column, int row);
+  [[nodiscard]] static LatticeBox around(const Lattice& lattice, int column, int row);
   /// True when the particle is far enough inside the box for what its patch pushes over the rim to be small.
-  [[nodiscard]] static bool covers(const Lattice& lattice, const PatchBox& box, int column, int row);
+  [[nodiscard]] static bool covers(const Lattice& lattice, const LatticeBox& box, int column, int row);
 
   /// Iterates until no particle of the box is unbalanced by more than `small` (a force), or progress ends.
-  /// `forces` (all but `largest`, `unbalanced` and `worst`) are brought up to date in the box and around it.
-  void relax(Sheet& sheet, Forces& forces, const PatchBox& box, double small);
+  /// `forces` are brought up to date.
+  void relax(Sheet& sheet, Forces& forces, const LatticeBox& box, double small);
+
+  explicit Patches(int threads) : threads_(threads) {}
 
  private:
   struct Local;
   using Shape = std::tuple<int, int, bool>;
+  int threads_;
   std::map<Shape, std::shared_ptr<Local>> shapes_;
 };
 

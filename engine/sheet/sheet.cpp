@@ -51,6 +51,33 @@ DEM_CLONES double spring_line(const SpringLine& s, int begin, int end, int offse
   return largest;
 }
 
+// A row's largest values from forces that are up to date.
+Forces::Row look_along(const Sheet& s, const Forces& f, int row) {
+  const auto n = static_cast<std::size_t>(s.particles()), columns = static_cast<std::size_t>(s.lattice.columns);
+  const auto start = static_cast<std::size_t>(row) * columns;
+  Forces::Row found;
+  for (std::size_t d = 0; d < 3; ++d) {
+    for (std::size_t k = d * n + start; k < d * n + start + columns; ++k) {
+      found.largest = std::max(found.largest, std::fabs(f.tension[k]));
+    }
+  }
+  for (std::size_t i = start; i < start + columns; ++i) {
+    const double x = (s.fixed[i] & 1) ? 0.0 : std::fabs(f.x[i]), y = (s.fixed[i] & 2) ? 0.0 : std::fabs(f.y[i]);
+    const double size = std::max(x, y);
+    if (size > found.unbalanced) found.unbalanced = size, found.worst = static_cast<int>(i);
+  }
+  return found;
+}
+
+void sum_up(Forces& f) {
+  f.largest = f.unbalanced = 0;
+  f.worst = -1;
+  for (const auto& row : f.rows) {
+    f.largest = std::max(f.largest, row.largest);
+    if (row.unbalanced > f.unbalanced) f.unbalanced = row.unbalanced, f.worst = row.worst;
+  }
+}
+
 }  // namespace
 
 Sheet make_sheet(int columns, int rows, double wall_weight) {
@@ -108,17 +135,16 @@ void compute_forces(const Sheet& s, Forces& f, int threads) {
   // A row needs its own springs and those of the row below. Each band of rows recomputes the row below its first one.
   constexpr int band = 16;
   const int bands = (rows + band - 1) / band;
-  std::vector<double> largest(static_cast<std::size_t>(bands)), unbalanced(static_cast<std::size_t>(bands));
-  std::vector<int> worst(static_cast<std::size_t>(bands), -1);
+  f.rows.resize(static_cast<std::size_t>(rows));
 #pragma omp parallel num_threads(threads)
   {
     std::vector<double> buffer(12 * static_cast<std::size_t>(columns), 0.0),
         scrap(2 * static_cast<std::size_t>(columns));
 #pragma omp for schedule(static)
     for (int b = 0; b < bands; ++b) {
-      double most = 0, open = 0;
-      int at = -1;
       for (int r = std::max(0, b * band - 1); r < std::min(rows, (b + 1) * band); ++r) {
+        double most = 0, open = 0;
+        int at = -1;
         const bool outside = r < b * band;  // only its forces on the first row of the band are wanted
         const auto here = static_cast<std::size_t>(r % 2) * 6 * static_cast<std::size_t>(columns);
         const auto below = static_cast<std::size_t>((r + 1) % 2) * 6 * static_cast<std::size_t>(columns);
@@ -164,18 +190,52 @@ void compute_forces(const Sheet& s, Forces& f, int threads) {
           const double size = std::max(free_x, free_y);
           if (size > open) open = size, at = static_cast<int>(i);
         }
+        f.rows[static_cast<std::size_t>(r)] = {most, open, at};
       }
-      largest[static_cast<std::size_t>(b)] = most;
-      unbalanced[static_cast<std::size_t>(b)] = open;
-      worst[static_cast<std::size_t>(b)] = at;
     }
   }
-  f.largest = *std::max_element(largest.begin(), largest.end());
-  f.unbalanced = 0;
-  f.worst = -1;
-  for (std::size_t b = 0; b < unbalanced.size(); ++b) {
-    if (unbalanced[b] > f.unbalanced) f.unbalanced = unbalanced[b], f.worst = worst[b];
+  sum_up(f);
+}
+
+void update_forces(const Sheet& s, Forces& f, const LatticeBox& box) {
+  const int columns = s.lattice.columns, n = s.particles();
+  const auto slot_of = [&](int i, int direction, int j) {
+    return static_cast<std::size_t>(direction < 3 ? direction * n + i : (direction - 3) * n + j);
+  };
+  for (int r = box.r0; r < box.r1; ++r) {
+    for (int c = box.c0; c < box.c1; ++c) {
+      const int i = r * columns + c;
+      for (int d = 0; d < 6; ++d) {
+        const int j = s.lattice.neighbour(i, d);
+        if (j < 0) continue;
+        const auto k = slot_of(i, d, j), p = static_cast<std::size_t>(i), q = static_cast<std::size_t>(j);
+        const double dx = s.x[q] - s.x[p], dy = s.y[q] - s.y[p];
+        const double length = std::sqrt(dx * dx + dy * dy);
+        const double tension = s.stiffness[k] * (length - (s.radius[p] + s.radius[q]));
+        f.length[k] = length;
+        f.tension[k] = (s.joined[k] == 0 && tension > 0) ? 0.0 : tension;
+      }
+    }
   }
+  for (int r = std::max(0, box.r0 - 1); r < std::min(s.lattice.rows, box.r1 + 1); ++r) {
+    for (int c = std::max(0, box.c0 - 1); c < std::min(columns, box.c1 + 1); ++c) {
+      const int i = r * columns + c;
+      const auto p = static_cast<std::size_t>(i);
+      double fx = 0, fy = 0;
+      for (int d = 0; d < 6; ++d) {
+        const int j = s.lattice.neighbour(i, d);
+        if (j < 0) continue;
+        const auto k = slot_of(i, d, j), q = static_cast<std::size_t>(j);
+        const double per_length = f.tension[k] / f.length[k];
+        fx += per_length * (s.x[q] - s.x[p]);
+        fy += per_length * (s.y[q] - s.y[p]);
+      }
+      f.x[p] = fx;
+      f.y[p] = fy;
+    }
+    f.rows[static_cast<std::size_t>(r)] = look_along(s, f, r);
+  }
+  sum_up(f);
 }
 
 double elastic_energy(const Sheet& s, const Forces& f) {

@@ -50,10 +50,23 @@ struct Forces {
   double largest = 0;           ///< largest spring force
   double unbalanced = 0;        ///< largest force component on a particle along a free direction
   int worst = -1;               ///< particle where `unbalanced` is found
+  struct Row {                  ///< the same of the slots and particles of a row of the lattice
+    double largest = 0, unbalanced = 0;
+    int worst = -1;
+  };
+  std::vector<Row> rows;
 };
 
 /// Computes forces with fixed summation order: the same bits for any number of threads.
 void compute_forces(const Sheet& sheet, Forces& forces, int threads);
+
+/// Columns [c0, c1) and rows [r0, r1) of the lattice.
+struct LatticeBox {
+  int c0 = 0, c1 = 0, r0 = 0, r1 = 0;
+};
+
+/// Brings forces up to date where only particles and springs of `box` changed: the bits of compute_forces.
+void update_forces(const Sheet& sheet, Forces& forces, const LatticeBox& box);
 
 /// Half of k (d - l)^2 over all springs and contacts, in one order.
 double elastic_energy(const Sheet& sheet, const Forces& forces);

@@ -1,13 +1,31 @@
 #include "engine/sheet/stiffness.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dem::sheet {
 namespace {
 
-constexpr double tether = 1e-3;
+constexpr double least_hold = 1e-4;  // of its stiffest spring: what holds a particle along any direction
+constexpr double loose_hold = 1e-5;  // what holds a particle beside an open crack, which may be part of a fragment
 
 }  // namespace
+
+void hold(Block& diagonal, double stiffest, bool loose) {
+  if (loose) diagonal[0] += loose_hold * stiffest, diagonal[2] += loose_hold * stiffest;
+  const double middle = 0.5 * (diagonal[0] + diagonal[2]), half = 0.5 * (diagonal[0] - diagonal[2]);
+  const double size = std::sqrt(half * half + diagonal[1] * diagonal[1]);
+  const double lacks = least_hold * stiffest - (middle - size);
+  if (lacks <= 0) return;
+  if (size <= 1e-12 * stiffest) {
+    diagonal[0] += lacks, diagonal[2] += lacks;
+    return;
+  }
+  // Along the direction in which it is softest only: (1 - (D - middle)/size)/2 projects on it.
+  diagonal[0] += 0.5 * lacks * (1 - half / size);
+  diagonal[1] -= 0.5 * lacks * diagonal[1] / size;
+  diagonal[2] += 0.5 * lacks * (1 + half / size);
+}
 
 Block tangent_block(const Sheet& s, const Forces& f, int slot, Tangent tangent) {
   if (!active(s, f, slot)) return {0, 0, 0};
@@ -23,7 +41,7 @@ Block tangent_block(const Sheet& s, const Forces& f, int slot, Tangent tangent) 
 Block diagonal_of(const Sheet& s, const BlockMatrix& m, int particle) {
   Block sum{0, 0, 0};
   double stiffest = 0;
-  int springs = 0;
+  bool loose = false;
   for (int d = 0; d < 6; ++d) {
     const int other = s.lattice.neighbour(particle, d);
     if (other < 0) continue;
@@ -31,9 +49,9 @@ Block diagonal_of(const Sheet& s, const BlockMatrix& m, int particle) {
     const Block& b = m.coupling[slot];
     for (std::size_t q = 0; q < 3; ++q) sum[q] -= b[q];
     stiffest = std::max(stiffest, s.stiffness[slot]);
-    springs += b == Block{0, 0, 0} ? 0 : 1;
+    loose = loose || (s.stiffness[slot] > 0 && b == Block{0, 0, 0});
   }
-  if (springs <= 2) sum[0] += tether * stiffest, sum[2] += tether * stiffest;
+  hold(sum, stiffest, loose);
   return sum;
 }
 
@@ -59,15 +77,25 @@ void apply_tangent(const Sheet& s, const Forces& f, std::span<const double> vx, 
 #pragma omp parallel for schedule(static) num_threads(threads)
   for (int i = 0; i < n; ++i) {
     const auto p = static_cast<std::size_t>(i);
-    double sx = 0, sy = 0;
+    double sx = 0, sy = 0, stiffest = 0;
+    Block sum{0, 0, 0};
+    bool loose = false;
     for (int d = 0; d < 6; ++d) {
       const int j = s.lattice.neighbour(i, d);
       if (j < 0) continue;
-      const Block b = tangent_block(s, f, d < 3 ? d * n + i : (d - 3) * n + j);
+      const int slot = d < 3 ? d * n + i : (d - 3) * n + j;
+      const Block b = tangent_block(s, f, slot);
+      for (std::size_t q = 0; q < 3; ++q) sum[q] += b[q];
+      stiffest = std::max(stiffest, s.stiffness[static_cast<std::size_t>(slot)]);
+      loose = loose || (s.stiffness[static_cast<std::size_t>(slot)] > 0 && !active(s, f, slot));
       const double dx = vx[p] - vx[static_cast<std::size_t>(j)], dy = vy[p] - vy[static_cast<std::size_t>(j)];
       sx += b[0] * dx + b[1] * dy;
       sy += b[1] * dx + b[2] * dy;
     }
+    Block held = sum;
+    hold(held, stiffest, loose);
+    sx += (held[0] - sum[0]) * vx[p] + (held[1] - sum[1]) * vy[p];
+    sy += (held[1] - sum[1]) * vx[p] + (held[2] - sum[2]) * vy[p];
     out_x[p] = (s.fixed[p] & 1) ? 0.0 : sx;
     out_y[p] = (s.fixed[p] & 2) ? 0.0 : sy;
   }

@@ -19,14 +19,18 @@ enum class Tangent { exact, stable };
 /// The block of one slot (positive: its share of the diagonal).
 Block tangent_block(const Sheet& sheet, const Forces& forces, int slot, Tangent tangent = Tangent::exact);
 
-/// The sum of the couplings of a particle in `matrix`, tether included.
+/// Makes the diagonal block of a particle hold it: at least a ten-thousandth of its stiffest spring along its softest
+/// direction, and a little more than nothing beside an open crack (`loose`), where it may belong to a fragment that
+/// nothing holds. No force: it shortens steps along mechanisms, so that the matrix can be factorised.
+void hold(Block& diagonal, double stiffest, bool loose);
+
+/// The sum of the couplings of a particle in `matrix`, held (see above).
 Block diagonal_of(const Sheet& sheet, const BlockMatrix& matrix, int particle);
 
-/// Assembles the whole matrix. Particles left on two springs or fewer get a tether of a thousandth of their stiffest
-/// spring, so that the matrix can be factorised; the tether is no force, it only shortens steps along mechanisms.
+/// Assembles the whole matrix.
 BlockMatrix assemble(const Sheet& sheet, const Forces& forces, Tangent tangent = Tangent::exact);
 
-/// out = K v with the tangent of the present state (no tethers), zero along held directions.
+/// out = K v with the tangent of the present state (particles held as in `assemble`), zero along held directions.
 void apply_tangent(const Sheet& sheet, const Forces& forces, std::span<const double> vx, std::span<const double> vy,
                    std::span<double> out_x, std::span<double> out_y, int threads);
 

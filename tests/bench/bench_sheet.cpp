@@ -99,7 +99,7 @@ int main(int argc, char** argv) {
     t = now();
     factor.factorise(matrix);
     line("factor", now() - t, "s", threads, size);
-    line("factor_entries", static_cast<double>(factor.factor().entries()), "1", threads, size);
+    line("factor_bytes", static_cast<double>(factor.factor().bytes()), "B", threads, size);
     std::vector<double> b(2 * static_cast<std::size_t>(size), 1e-6);
     t = now();
     for (int k = 0; k < 5; ++k) factor.solve(b);

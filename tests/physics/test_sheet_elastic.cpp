@@ -107,3 +107,55 @@ TEST_CASE("a disc that grows by 0.2 % strains the sheet as converged computation
     MESSAGE(columns << " columns: largest strain " << largest_strain(sheet, forces));
   }
 }
+
+TEST_CASE("a fragment that nothing holds does not keep the sheet from its equilibrium") {
+  // All springs around a square of 7 by 7 particles are cut: it may lie anywhere in its hole, and its stiffness against
+  // being moved is nothing. The walls go on to move by ten times the strain of a break.
+  Sheet sheet = make_sheet(60);
+  const auto inside = [&](int i) {
+    const int c = i % 60, r = i / 60;
+    return c >= 27 && c < 34 && r >= 30 && r < 37;
+  };
+  for (int slot = 0; slot < sheet.slots(); ++slot) {
+    if (sheet.stiffness[static_cast<std::size_t>(slot)] > 0 && inside(sheet.first(slot)) != inside(sheet.second(slot)))
+      sheet.joined[static_cast<std::size_t>(slot)] = 0;
+  }
+  ConvergedSolver solver(sheet, {});
+  Forces forces;
+  for (int step = 0; step < 10; ++step) {
+    for (std::size_t i = 0; i < sheet.x.size(); ++i) {
+      sheet.x[i] *= 1.003;
+      sheet.y[i] *= 0.998;
+    }
+    const Relaxation r = solver.relax(sheet, forces, {});
+    CHECK(r.reached);
+    CHECK(r.iterations < 60);
+  }
+  CHECK(forces.largest > 1e-4);
+}
+
+TEST_CASE("forces brought up to date in a box are those computed anew") {
+  Sheet sheet = make_sheet(30);
+  Forces forces;
+  compute_forces(sheet, forces, 1);
+  for (const LatticeBox& box : {LatticeBox{11, 19, 7, 16}, {0, 5, 0, 3}, {26, 30, 30, sheet.lattice.rows}}) {
+    for (int r = box.r0; r < box.r1; ++r) {
+      for (int c = box.c0; c < box.c1; ++c) {
+        const auto i = static_cast<std::size_t>(r * 30 + c);
+        sheet.x[i] += 1e-4 * std::sin(3.0 * r + 5.0 * c);
+        sheet.y[i] += 1e-4 * std::cos(7.0 * r + 2.0 * c);
+        sheet.joined[i] = (r + c) % 3 == 0 ? 0 : sheet.joined[i];
+      }
+    }
+    update_forces(sheet, forces, box);
+    Forces anew;
+    compute_forces(sheet, anew, 1);
+    CHECK(forces.x == anew.x);
+    CHECK(forces.y == anew.y);
+    CHECK(forces.tension == anew.tension);
+    CHECK(forces.length == anew.length);
+    CHECK(forces.largest == anew.largest);
+    CHECK(forces.unbalanced == anew.unbalanced);
+    CHECK(forces.worst == anew.worst);
+  }
+}
