@@ -13,12 +13,20 @@ namespace {
 
 struct Test {
   std::string_view name, result, error, title;
-  double published_single, published_mean;  // errors, %
+  std::string_view published_single, published_mean;  // errors (%), by id
 };
-constexpr Test tension{"tension", "tensile_strength_MPa", "tensile_error_percent", "Tensile strength Tᵤ (MPa)", -0.011,
-                       -8.89};
-constexpr Test compression{"compression", "ucs_MPa", "ucs_error_percent", "Compressive strength Cᵤ (MPa)",
-                           -1.73,         -18.51};
+constexpr Test tension{"tension",
+                       "tensile_strength_MPa",
+                       "tensile_error_percent",
+                       "Tensile strength Tᵤ (MPa)",
+                       "unit_tensile_strength",
+                       "mean_tensile_strength"};
+constexpr Test compression{"compression",
+                           "ucs_MPa",
+                           "ucs_error_percent",
+                           "Compressive strength Cᵤ (MPa)",
+                           "unit_compressive_strength",
+                           "mean_compressive_strength"};
 
 double theory(const StudyResult& study, const Test& test) {
   return 1e-6 * study.scenario->real(test.name == "tension" ? "rock.tensile_strength" : "rock.compressive_strength");
@@ -35,7 +43,8 @@ render::Chart against_size(const StudyResult& study, const Test& test) {
   const auto records = by_size(study, test.name);
   const double rock = theory(study, test);
   render::Series line;
-  double low = rock * (1 + test.published_mean / 100), high = rock;
+  const double mean = rock * (1 + study.published_value(test.published_mean) / 100);
+  double low = std::isfinite(mean) ? mean : rock, high = rock;
   for (const dem::Record* r : records) {
     if (!std::isfinite(r->result(test.result))) continue;
     line.x.push_back(r->result("particles"));
@@ -69,16 +78,23 @@ render::Chart against_size(const StudyResult& study, const Test& test) {
   chart.left.high = high + 0.15 * (high - low);
   chart.marks.push_back(
       {.kind = render::Mark::Kind::horizontal, .x = 0, .y = rock, .label = "theory", .colour = {0, 0, 0}});
-  chart.marks.push_back({.kind = render::Mark::Kind::horizontal,
-                         .x = 0,
-                         .y = rock * (1 + test.published_mean / 100),
-                         .label = "published mean of blocks",
-                         .colour = {0.5, 0.5, 0.5},
-                         .line = render::Line::dash_dot});
+  if (std::isfinite(mean)) {
+    chart.marks.push_back({.kind = render::Mark::Kind::horizontal,
+                           .x = 0,
+                           .y = mean,
+                           .label = "published mean of blocks",
+                           .colour = {0.5, 0.5, 0.5},
+                           .line = render::Line::dash_dot});
+  }
   chart.legend = render::Chart::Legend::below;
   chart.width = 640;
   chart.height = 420;
   return chart;
+}
+
+// " (published −8.89 %, over nine)"; nothing when it is not known.
+std::string published_words(double percent, int digits, const char* more = "") {
+  return std::isfinite(percent) ? fmt::format(" (published {} %{})", number(percent, digits), more) : "";
 }
 
 double mean_of_blocks(const StudyResult& study, const Test& test, int& n) {
@@ -139,9 +155,9 @@ FigureContent block_strengths(const StudyResult& study) {
          .content = against_size(study, test),
          .per_row = 1});
     if (records.front()->result("particles") == 4) {
-      content.finding +=
-          fmt::format("Single unit in {}: {} % (published {} %). ", test.name,
-                      with_sign(number(records.front()->result(test.error), 3)), number(test.published_single, 3));
+      content.finding += fmt::format("Single unit in {}: {} %{}. ", test.name,
+                                     with_sign(number(records.front()->result(test.error), 3)),
+                                     published_words(study.published_value(test.published_single), 3));
     }
     std::vector<std::string> larger;
     for (const dem::Record* r : records) {
@@ -151,8 +167,8 @@ FigureContent block_strengths(const StudyResult& study) {
     if (!larger.empty())
       content.finding += fmt::format("With larger loading steps in {}: {}. ", test.name, joined(larger, ", "));
     if (n > 0) {
-      content.finding += fmt::format("Mean of {} blocks in {}: {} % (published {} %, over nine). ", n, test.name,
-                                     with_sign(number(mean, 3)), number(test.published_mean, 4));
+      content.finding += fmt::format("Mean of {} blocks in {}: {} %{}. ", n, test.name, with_sign(number(mean, 3)),
+                                     published_words(study.published_value(test.published_mean), 4, ", over nine"));
     }
   }
   return content;
@@ -172,7 +188,8 @@ FigureContent strength_choices(const StudyResult& study) {
     if (!main) continue;
     std::vector<double> sizes;
     const dem::Record* best = nullptr;
-    const auto away = [&](const dem::Record& r) { return std::abs(r.result(test.error) - test.published_mean); };
+    const double published = study.published_value(test.published_mean);
+    const auto away = [&](const dem::Record& r) { return std::abs(r.result(test.error) - published); };
     for (const dem::Record* r : records_of(study, test.name)) {
       if (choice_words(*r, *main) != "as the series") sizes.push_back(r->number("elements_y"));
     }
@@ -189,10 +206,10 @@ FigureContent strength_choices(const StudyResult& study) {
                             std::isfinite(drop) ? number(1e-6 * drop, 4) : "–",
                             number(r->result("energy_residual"), 2)});
     }
-    if (best) {
+    if (best && std::isfinite(published)) {
       nearest.push_back(fmt::format("in {} {} ({} elements, {} %, published {} %)", test.name,
                                     choice_words(*best, *main), count(best->result("particles")),
-                                    with_sign(number(best->result(test.error), 3)), number(test.published_mean, 4)));
+                                    with_sign(number(best->result(test.error), 3)), number(published, 4)));
     }
   }
   std::ranges::stable_sort(table.rows, [](const auto& a, const auto& b) { return a[0] > b[0]; });

@@ -6,6 +6,8 @@
 
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
+#include "engine/lattice/keys.h"
+#include "reports/figures/table.h"
 #include "reports/published.h"
 #include "tests/reports/synthetic.h"
 #include "tests/support/scratch.h"
@@ -217,4 +219,24 @@ TEST_CASE_FIXTURE(Fixture, "figures are given every value and range of the paper
   CHECK(known.published[1].high == 3);
   CHECK(std::isnan(known.published_value("t")));
   CHECK(std::isnan(study().published_value("a")));
+}
+
+TEST_CASE("the lattice's figures take what the paper states from its file") {
+  const dem::Scenario scenario = dem::Scenario::read(DEM_SOURCE_DIR "/scenarios/quartzite_strength.toml", "smoke", {},
+                                                     [](std::string_view) { return dem::lattice::keys(); });
+  dem::Record record;
+  record.parameters = {{"test", "compression"}, {"elements_y", 4.0}};
+  record.results = {{"normal_stiffness_N_per_m", 46.794e6},  {"shear_stiffness_N_per_m", 8.068e6},
+                    {"breaking_displacement_m", 1.704e-7},   {"initial_shear_resistance_N", 18.452},
+                    {"contact_friction", 0.3964},            {"element_mass_kg", 1.02 * 1.874e-6},
+                    {"opening_stress_theory_MPa", 95.9}};
+  record.tables.push_back({.name = "particles", .attributes = {}, .columns = {}});
+  reports::StudyResult study{&scenario, {{"compression_n_4", &record, ""}}};
+  CHECK(reports::lattice::parameters(study).finding.empty());
+  study.published = reports::published_numbers(study, DEM_SOURCE_DIR "/assets/published");
+  CHECK(reports::lattice::parameters(study).finding == "The largest deviation from the six published parameters is 2.000 %.");
+  for (const char* id : {"unit_tensile_strength", "mean_tensile_strength", "unit_compressive_strength", "mean_compressive_strength"}) {
+    CAPTURE(id);
+    CHECK(study.published_value(id) < 0);
+  }
 }
