@@ -1,5 +1,6 @@
 #pragma once
 // What a model gives to the study runner. A case is a pure function from its content to its record.
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <span>
@@ -25,13 +26,17 @@ struct Progress {
 /// What the runner lends to a case. Nothing here may change the result. Cases run side by side, each in a thread of its own:
 /// they share nothing but the folder of specimens.
 struct RunContext {
-  int threads = 1;
+  int threads = 1;                    ///< at the beginning of the case
+  const std::atomic<int>* lent = nullptr;  ///< threads by now: grows when other cases have ended and none waits; none: as at first
   std::filesystem::path specimens;    ///< folder for generated specimens, kept by content
   Turns* turns = nullptr;             ///< to be taken by path while a specimen is looked for and made; none: alone
   std::filesystem::path checkpoint;   ///< file for the state of a cut case; the case writes it aside, then renames it
   double checkpoint_seconds = 120;    ///< wall time between checkpoints
   std::function<bool()> stopped = [] { return false; };  ///< asked for: write the checkpoint and throw Interrupted
   std::function<void(const Progress&)> report = [](const Progress&) {};
+
+  /// For a case that can change their number on its way; others keep to `threads`.
+  [[nodiscard]] int threads_now() const { return lent ? lent->load() : threads; }
 };
 
 /// Thrown by a case that was asked to stop; its checkpoint is written.

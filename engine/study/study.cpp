@@ -127,26 +127,47 @@ class Runner {
     }
     const std::lock_guard lock(mutex_);
     waiting_[at] = false;
+    hand_out();
     listener_.end(outcome);
     outcomes_[at] = std::move(outcome);
   }
 
-  /// Takes a place and its share of the threads: those that are free are shared by the cases that can begin now. The
-  /// last cases of a study so have several each when there are fewer of them than threads.
-  int begin(std::size_t at) {
-    const std::lock_guard lock(mutex_);
-    const auto more = static_cast<int>(std::ranges::count(waiting_, true)) + (waiting_[at] ? 0 : 1);
-    const int threads = std::max(free_threads_ / std::clamp(more, 1, std::max(free_places_, 1)), 1);
-    waiting_[at] = false;
-    --free_places_;
-    free_threads_ -= threads;
-    return threads;
-  }
+  /// The place of a running case, with its share of the threads. Those that are free are shared by the cases that can
+  /// begin now, and by those that run when none is left to begin: the last cases of a study have several each.
+  class Place {
+   public:
+    Place(Runner& runner, std::size_t at) : runner_(runner) {
+      const std::lock_guard lock(runner_.mutex_);
+      const auto others = static_cast<int>(std::ranges::count(runner_.waiting_, true)) - (runner_.waiting_[at] ? 1 : 0);
+      lent_ = std::max(runner_.free_threads_ / std::clamp(others + 1, 1, std::max(runner_.free_places_, 1)), 1);
+      runner_.waiting_[at] = false;
+      --runner_.free_places_;
+      runner_.free_threads_ -= lent_;
+      runner_.running_.push_back(this);
+    }
+    Place(const Place&) = delete;
+    Place& operator=(const Place&) = delete;
+    ~Place() {
+      const std::lock_guard lock(runner_.mutex_);
+      std::erase(runner_.running_, this);
+      ++runner_.free_places_;
+      runner_.free_threads_ += lent_;
+      runner_.hand_out();
+    }
+    [[nodiscard]] const std::atomic<int>& lent() const { return lent_; }
+    void lend_one() { ++lent_; }
 
-  void end(int threads) {
-    const std::lock_guard lock(mutex_);
-    ++free_places_;
-    free_threads_ += threads;
+   private:
+    Runner& runner_;
+    std::atomic<int> lent_ = 1;
+  };
+
+  /// Gives the free threads to running cases, those with fewest first, when no case is left to begin.
+  void hand_out() {
+    if (std::ranges::count(waiting_, true) > 0) return;
+    for (; free_threads_ > 0 && !running_.empty(); --free_threads_) {
+      (*std::ranges::min_element(running_, {}, [](const Place* place) { return place->lent().load(); }))->lend_one();
+    }
   }
 
   void simulate(std::size_t at, const fs::path& path, std::string why, CaseOutcome& outcome) {
@@ -157,8 +178,10 @@ class Runner {
     remove_leftovers(path.parent_path());
     prepare_checkpoint(checkpoint, spec, why);
 
+    const Place place(*this, at);
     RunContext context;
-    context.threads = begin(at);
+    context.threads = place.lent();
+    context.lent = &place.lent();
     context.specimens = options_.output / "specimens";
     context.turns = &turns_;
     context.checkpoint = checkpoint;
@@ -185,7 +208,6 @@ class Runner {
       outcome.error = failure.what();
     }
     outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    end(context.threads);
   }
 
   /// Leaves a checkpoint only when the case can go on from it, and says so in `why`.
@@ -230,6 +252,7 @@ class Runner {
   std::vector<bool> waiting_;  // cases that have to be simulated and have not begun
   int free_places_ = 1;
   int free_threads_;
+  std::vector<Place*> running_;
   std::exception_ptr error_;
 };
 

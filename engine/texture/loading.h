@@ -37,6 +37,7 @@ class LoadingTest {
   [[nodiscard]] std::optional<std::size_t> end() const;
   [[nodiscard]] const std::vector<Frame>& frames() const { return frames_; }
   [[nodiscard]] const Assembly& assembly() const { return assembly_; }
+  void set_threads(int threads) { assembly_.set_threads(threads); }
 
   template <class Archive>
   void archive(Archive& a) {

@@ -140,8 +140,10 @@ std::vector<CaseSpec> cases(const Scenario& scenario) {
 // Runs the test to its end, from its checkpoint if there is one.
 LoadingTest load(const Specimen& specimen, const Settings& settings, const CaseSpec& spec, RunContext& context) {
   // Two threads pay from some thousand particles on: below, they mostly wait for each other.
-  const int threads = std::clamp(static_cast<int>(specimen.packing.radius.size() / 2000), 1, std::max(1, context.threads));
-  LoadingTest test(specimen, settings, threads);
+  const auto threads = [useful = static_cast<int>(specimen.packing.radius.size() / 2000), &context] {
+    return std::clamp(useful, 1, std::max(1, context.threads_now()));
+  };
+  LoadingTest test(specimen, settings, threads());
   if (!context.checkpoint.empty()) {
     LoadingTest loaded = test;
     std::string bytes;
@@ -158,6 +160,7 @@ LoadingTest load(const Specimen& specimen, const Settings& settings, const CaseS
       saved = Clock::now();
     }
     if (stop) throw Interrupted{};
+    test.set_threads(threads());
     test.advance();
     if (test.history().empty()) {
       context.report({"confining pressure", test.assembly().step(), 0, 0, spec.scenario.real("compression.confining_pressure")});

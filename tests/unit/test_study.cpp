@@ -71,7 +71,8 @@ struct Seen {
   int inside = 0, most_inside = 0;                 ///< cases that run at a time
 };
 Seen seen;
-int meet = 1;  ///< a case goes on only when so many have begun
+int meet = 1;   ///< a case goes on only when so many have begun
+int grows = 0;  ///< count_1 goes on only when it is lent so many threads
 
 /// A case waits until so many have begun together, or a while in vain.
 bool met() {
@@ -107,6 +108,10 @@ dem::Record counter_run(const dem::CaseSpec& spec, dem::RunContext& context) {
   dem::load_checkpoint(context.checkpoint, spec.content, state);
   const Inside inside(spec.id, state.step, context.threads);
   if (!met()) throw std::runtime_error("the cases did not run side by side");
+  for (int i = 0; value == 1 && context.threads_now() < grows; ++i) {
+    if (i == 10000) throw std::runtime_error("it was lent no more threads");
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
   if (value == spec.scenario.real("load.fails_at")) throw dem::CaseError("the counter cannot be packed");
   const double breaks_at = spec.scenario.real("load.breaks_at");
   if (value == breaks_at) throw dem::EnvironmentError("the disk is full");
@@ -148,6 +153,7 @@ struct Bench {
     stop = false;
     stop_at = -1;
     meet = 1;
+    grows = 0;
     options.output = folder / "out";
     options.stop = &stop;
     std::ofstream(folder / "study.toml") << "model = \"counter\"\n[scales.draft]\n";
@@ -333,6 +339,18 @@ TEST_CASE("threads are shared by the cases that have to be simulated, and memory
       sum += threads;
     }
     CHECK(sum == 8);
+  }
+  SUBCASE("the last case has those that the others leave") {
+    bench.options.threads = 3;
+    meet = grows = 3;
+    CHECK(states(bench.run()) == std::vector{simulated, simulated, simulated});
+    CHECK(seen.threads == Shares{{"count_1", 1}, {"count_2", 1}, {"count_3", 1}});
+  }
+  SUBCASE("one that fails leaves its threads too") {
+    bench.options.threads = 2;
+    grows = 2;
+    CHECK(states(bench.run({"load.fails_at=3"})) == std::vector{simulated, simulated, CaseState::failed});
+    CHECK(seen.threads == Shares{{"count_1", 1}, {"count_2", 1}, {"count_3", 1}});
   }
   SUBCASE("one case that is not kept") {
     bench.run();
