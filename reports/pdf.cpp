@@ -44,15 +44,20 @@ std::vector<char*> environment() {
   return variables;
 }
 
-// Runs weasyprint with its messages in `log`; returns its exit status.
-int run_weasyprint(const std::string& html, const std::string& style, const std::string& pdf, const std::string& log) {
+// WeasyPrint names pictures in the PDF by their address: this one is the same wherever the report lies.
+constexpr const char* fixed_base = "file:///proc/self/cwd/";
+
+// Runs weasyprint in `folder`, with its messages in `log`; returns its exit status.
+int run_weasyprint(const std::string& folder, const std::string& html, const std::string& style, const std::string& pdf,
+                   const std::string& log) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
-  std::array<std::string, 9> words{"weasyprint", "--pdf-variant", "pdf/ua-1", "--encoding", "utf-8",
-                                   "--stylesheet", style, html, pdf};
+  std::array<std::string, 11> words{"weasyprint", "--pdf-variant", "pdf/ua-1", "--encoding", "utf-8", "--base-url",
+                                    fixed_base,   "--stylesheet",  style,      html,         pdf};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -60,13 +65,15 @@ int run_weasyprint(const std::string& html, const std::string& style, const std:
   const int failed = posix_spawnp(&child, "weasyprint", &actions, nullptr, arguments.data(), environment().data());
   posix_spawn_file_actions_destroy(&actions);
   if (failed == ENOENT) {
-    throw dem::EnvironmentError("weasyprint is not installed: it prints the PDF; install the Debian package weasyprint, "
-                                "or ask for the page alone with --format html");
+    throw dem::EnvironmentError(
+        "weasyprint is not installed: it prints the PDF; install the Debian package weasyprint, "
+        "or ask for the page alone with --format html");
   }
   if (failed != 0) throw dem::EnvironmentError(std::string("weasyprint cannot be started: ") + std::strerror(failed));
   int status = 0;
   while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) throw dem::EnvironmentError(std::string("waiting for weasyprint failed: ") + std::strerror(errno));
+    if (errno != EINTR)
+      throw dem::EnvironmentError(std::string("waiting for weasyprint failed: ") + std::strerror(errno));
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
 }
@@ -100,7 +107,9 @@ void print_pdf(const std::string& html, const std::filesystem::path& print_style
     const Temporary source(aside.string() + ".html");
     const Temporary log(aside.string() + ".log");
     dem::write_file(source.path(), without_file_links(html));
-    const int status = run_weasyprint(source.path(), print_style, aside, log.path());
+    const auto whole = [](const std::filesystem::path& path) { return std::filesystem::absolute(path).string(); };
+    const int status = run_weasyprint(whole(aside).substr(0, whole(aside).find_last_of('/')), whole(source.path()),
+                                      whole(print_style), whole(aside), whole(log.path()));
     const std::string messages = dem::read_file(log.path());
     const std::string errors = errors_in(messages);
     if (!errors.empty()) throw dem::EnvironmentError("weasyprint could not print the report: " + errors);

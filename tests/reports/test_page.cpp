@@ -220,6 +220,26 @@ TEST_CASE("an error in WeasyPrint's log fails the run and leaves no PDF") {
   CHECK_FALSE(std::filesystem::exists(scratch / "x.pdf"));
 }
 
+TEST_CASE("the PDF's bytes do not hang on the folder that the report is in") {
+  const test::Scratch scratch;
+  const std::string html = "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>x</title></head><body>"
+                           "<img alt=\"a drop\" src=\"figures/drop.png\"></body></html>";
+  std::filesystem::path picture;
+  for (const auto& file : std::filesystem::directory_iterator(whole().folder / "figures")) {
+    if (file.path().extension() == ".png") picture = file.path();
+  }
+  REQUIRE(!picture.empty());
+  std::vector<std::string> bytes;
+  for (const std::string folder : {"one", "another/below"}) {
+    std::filesystem::create_directories(scratch / folder / "figures");
+    std::filesystem::copy(picture, scratch / folder / "figures/drop.png");
+    reports::print_pdf(html, assets / "print.css", scratch / folder / "x.pdf");
+    bytes.push_back(dem::read_file(scratch / folder / "x.pdf"));
+  }
+  CHECK(bytes[0].size() > 2000);
+  CHECK(bytes[0] == bytes[1]);
+}
+
 TEST_CASE("the list of figures names every one of them") {
   const std::string text = reports::list_figures();
   for (const reports::Figure& figure : reports::figures()) CHECK(text.find(figure.id) != std::string::npos);
