@@ -102,12 +102,14 @@ Crossing crossing(const std::vector<Break>& breaks, double spacing, double low, 
     s.x += inside[b].x;
     ++s.n;
   }
+  // A fracture through a band of n rows has springs in n rows and between them: they span n - 1.
+  const double row = 0.5 * std::numbers::sqrt3 * spacing;
   Crossing found;
   for (const auto& [key, s] : spans) {
-    if (s.high - s.low >= 0.8 * (high - low)) found.places.push_back(s.x / s.n);
+    if (s.high - s.low >= 0.8 * (high - low - row)) found.places.push_back(s.x / s.n);
   }
   std::sort(found.places.begin(), found.places.end());
-  found.mean_spacing = found.scatter = std::numeric_limits<double>::quiet_NaN();
+  found.mean_spacing = found.scatter = found.chance = std::numeric_limits<double>::quiet_NaN();
   const auto gaps = static_cast<double>(found.places.size()) - 1;
   if (gaps < 1) return found;
   found.mean_spacing = (found.places.back() - found.places.front()) / gaps;
@@ -118,6 +120,7 @@ Crossing crossing(const std::vector<Break>& breaks, double spacing, double low, 
     square += off * off;
   }
   found.scatter = std::sqrt(square / gaps) / found.mean_spacing;
+  found.chance = std::sqrt((gaps - 1) / (gaps + 1));  // of the gaps between uniform random places
   return found;
 }
 

@@ -14,11 +14,12 @@ std::vector<int> fractures(const std::vector<Break>& breaks, double spacing);
 /// directions only, those of the lattice.
 std::vector<double> trends(const std::vector<Break>& breaks, double spacing);
 
-/// Fractures whose springs inside a band reach across at least four fifths of it.
+/// Fractures whose springs inside a band reach across at least four fifths of what they can: a row less than the band.
 struct Crossing {
   std::vector<double> places;  ///< mean x of each, ascending
   double mean_spacing = 0;     ///< mean distance between neighbours; NaN for fewer than two
   double scatter = 0;          ///< standard deviation of those distances over their mean; NaN for fewer than three
+  double chance = 0;           ///< the scatter of as many places at random between the outermost
 };
 Crossing crossing(const std::vector<Break>& breaks, double spacing, double low, double high);
 

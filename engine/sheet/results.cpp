@@ -278,6 +278,7 @@ void add_results(Record& record, const Settings& settings, const Specimen& speci
     put("crossing_fractures", static_cast<double>(c.places.size()));
     put("spacing_over_thickness", c.mean_spacing / thickness);
     put("spacing_scatter", c.scatter);
+    put("spacing_scatter_chance", c.chance);
   }
   put("energy_residual", experiment.energy_residual());
   put("unbalanced_force_dimensionless", experiment.state().equilibrium.worst);

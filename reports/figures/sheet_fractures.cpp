@@ -243,7 +243,7 @@ FigureContent spacing(const StudyResult& study) {
   const double last = result_or_nan(*r, "crossing_fractures");
   content.panels.push_back(
       {.id = "",
-       .caption = "Fractures that reach across four fifths of the layer or more, and their mean spacing.",
+       .caption = "Fractures that reach across four fifths of the layer's rows or more, and their mean spacing.",
        .alt = fmt::format("At the end {} fractures cross the layer.", count(last)),
        .content = chart,
        .per_row = 1});
@@ -254,7 +254,9 @@ FigureContent spacing(const StudyResult& study) {
         fmt::format("; their mean spacing is {} layer thicknesses", number(r->result("spacing_over_thickness"), 3));
   }
   if (r->has_result("spacing_scatter")) {
-    content.finding += fmt::format(", with a scatter of {} of it", percent(r->result("spacing_scatter"), 0));
+    content.finding +=
+        fmt::format(", with a scatter of {} of it (as many fractures placed at random: {})",
+                    percent(r->result("spacing_scatter"), 0), percent(r->result("spacing_scatter_chance"), 0));
   }
   content.finding += ".";
   return content;

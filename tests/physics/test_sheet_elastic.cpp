@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "engine/sheet/experiment.h"
+#include "engine/sheet/measure.h"
+#include "tests/support/near.h"
 
 namespace {
 
@@ -158,4 +160,21 @@ TEST_CASE("forces brought up to date in a box are those computed anew") {
     CHECK(forces.unbalanced == anew.unbalanced);
     CHECK(forces.worst == anew.worst);
   }
+}
+
+TEST_CASE("fractures through a layer are counted, their spacing is set beside chance") {
+  // Springs of rows a unit times sqrt(3)/2 apart; the layer holds five rows: a fracture through all spans four.
+  std::vector<Break> breaks;
+  const double row = 0.5 * std::numbers::sqrt3;
+  const auto fracture = [&](double x, int rows) {
+    for (int r = 0; r < rows; ++r) breaks.push_back({.x = x + 0.5 * r, .y = 10 + row * r});
+  };
+  for (const double x : {10.0, 30.0, 60.0, 70.0}) fracture(x, 5);
+  fracture(45, 3);  // not through
+  const Crossing c = crossing(breaks, 1.0, 10 - 0.5 * row, 10 + 4.5 * row);
+  REQUIRE(c.places.size() == 4);
+  CHECK(c.places[0] == test::near(11.0));
+  CHECK(c.mean_spacing == test::near(20.0));
+  CHECK(c.scatter == test::near(std::sqrt(200.0 / 3) / 20));
+  CHECK(c.chance == test::near(std::sqrt(0.5)));
 }
