@@ -310,7 +310,8 @@ struct ConvergedSolver::Impl {
   // Conjugate gradients on the true tangent: u = K^-1 u to `share` of the first residual. Returns solves made.
   int newton_direction(const Sheet& sheet, const Forces& forces, double share, int most) {
     const auto n = u.size() / 2;
-    std::vector<double> r = u, p(2 * n), q(2 * n), z(2 * n), vx(n), vy(n), wx(n), wy(n);
+    const TangentOperator tangent(sheet, forces, settings.threads);
+    std::vector<double> r = u, p(2 * n), z(2 * n), vx(n), vy(n), wx(n), wy(n);
     std::fill(u.begin(), u.end(), 0.0);
     const double start = largest(r);
     int solves = 0;
@@ -322,12 +323,16 @@ struct ConvergedSolver::Impl {
       const double next = dot(r.data(), z.data(), r.size());
       const double beta = solves == 1 ? 0.0 : next / rz;
       rz = next;
-      for (std::size_t k = 0; k < p.size(); ++k) p[k] = z[k] + beta * p[k];
+#pragma omp parallel for schedule(static) num_threads(settings.threads)
       for (std::size_t at = 0; at < n; ++at) {
+        p[2 * at] = z[2 * at] + beta * p[2 * at];
+        p[2 * at + 1] = z[2 * at + 1] + beta * p[2 * at + 1];
         const auto i = static_cast<std::size_t>(dissection.order[at]);
         vx[i] = p[2 * at], vy[i] = p[2 * at + 1];
       }
-      apply_tangent(sheet, forces, vx, vy, wx, wy, settings.threads);
+      tangent.apply(vx, vy, wx, wy);
+      std::vector<double>& q = z;  // K p
+#pragma omp parallel for schedule(static) num_threads(settings.threads)
       for (std::size_t at = 0; at < n; ++at) {
         const auto i = static_cast<std::size_t>(dissection.order[at]);
         q[2 * at] = wx[i], q[2 * at + 1] = wy[i];
@@ -338,6 +343,7 @@ struct ConvergedSolver::Impl {
         break;
       }
       const double alpha = rz / curvature;
+#pragma omp parallel for simd schedule(static) num_threads(settings.threads)
       for (std::size_t k = 0; k < p.size(); ++k) {
         u[k] += alpha * p[k];
         r[k] -= alpha * q[k];

@@ -10,6 +10,15 @@ constexpr int small_particles = 100;  // subtrees smaller than this are factoris
 
 }  // namespace
 
+Lattice::Line Lattice::line(int row, int direction) const {
+  const int start = row * columns;
+  if (direction == 0) return {start, start + columns - 1, 1};
+  if (row + 1 >= rows) return {start, start, 0};
+  const int shift = shifted(row) ? 1 : 0;
+  if (direction == 1) return {start, start + columns - shift, columns + shift};
+  return {start + 1 - shift, start + columns, columns - 1 + shift};
+}
+
 int Lattice::neighbour(int particle, int direction) const {
   const int row = particle / columns;
   const int column = particle % columns;

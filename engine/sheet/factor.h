@@ -23,6 +23,11 @@ struct Lattice {
 
   [[nodiscard]] int particles() const { return columns * rows; }
   [[nodiscard]] bool shifted(int row) const { return (row % 2 != 0) != first_row_shifted; }
+  /// The particles [begin, end) of a row that have a neighbour in direction 0 to 2: `offset` further on.
+  struct Line {
+    int begin, end, offset;
+  };
+  [[nodiscard]] Line line(int row, int direction) const;
   /// Neighbour in direction 0 east, 1 north-east, 2 north-west, 3 west, 4 south-west, 5 south-east; -1 outside.
   [[nodiscard]] int neighbour(int particle, int direction) const;
 };

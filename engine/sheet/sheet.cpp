@@ -10,19 +10,6 @@
 namespace dem::sheet {
 namespace {
 
-struct RowLine {  // one direction of springs along one row: particles [begin, end), neighbour = particle + offset
-  int begin, end, offset;
-};
-
-RowLine row_line(const Lattice& l, int row, int direction) {
-  const int start = row * l.columns;
-  if (direction == 0) return {start, start + l.columns - 1, 1};
-  if (row + 1 >= l.rows) return {start, start, 0};
-  const bool shifted = l.shifted(row);
-  if (direction == 1) return {start, start + l.columns - (shifted ? 1 : 0), l.columns + (shifted ? 1 : 0)};
-  return {start + (shifted ? 0 : 1), start + l.columns, l.columns - (shifted ? 0 : 1)};
-}
-
 struct SpringLine {
   const double *x, *y, *radius, *stiffness;
   const std::uint8_t* joined;
@@ -151,7 +138,7 @@ void compute_forces(const Sheet& s, Forces& f, int threads) {
         const auto start = static_cast<std::size_t>(r) * static_cast<std::size_t>(columns);
         std::fill_n(buffer.begin() + static_cast<std::ptrdiff_t>(here), 6 * static_cast<std::size_t>(columns), 0.0);
         for (int d = 0; d < 3; ++d) {
-          const RowLine line = row_line(s.lattice, r, d);
+          const Lattice::Line line = s.lattice.line(r, d);
           const auto base = static_cast<std::size_t>(d) * n + start;
           double* fx = buffer.data() + here + static_cast<std::size_t>(2 * d) * static_cast<std::size_t>(columns);
           const SpringLine springs{s.x.data() + start,

@@ -71,33 +71,94 @@ BlockMatrix assemble(const Sheet& s, const Forces& f, Tangent tangent) {
   return m;
 }
 
-void apply_tangent(const Sheet& s, const Forces& f, std::span<const double> vx, std::span<const double> vy,
-                   std::span<double> out_x, std::span<double> out_y, int threads) {
-  const int n = s.particles();
+TangentOperator::TangentOperator(const Sheet& s, const Forces& f, int threads)
+    : sheet_(&s), threads_(threads), xx_(f.tension.size()), xy_(f.tension.size()), yy_(f.tension.size()) {
+  const int n = s.particles(), rows = s.lattice.rows;
 #pragma omp parallel for schedule(static) num_threads(threads)
-  for (int i = 0; i < n; ++i) {
-    const auto p = static_cast<std::size_t>(i);
-    double sx = 0, sy = 0, stiffest = 0;
-    Block sum{0, 0, 0};
-    bool loose = false;
-    for (int d = 0; d < 6; ++d) {
-      const int j = s.lattice.neighbour(i, d);
-      if (j < 0) continue;
-      const int slot = d < 3 ? d * n + i : (d - 3) * n + j;
-      const Block b = tangent_block(s, f, slot);
-      for (std::size_t q = 0; q < 3; ++q) sum[q] += b[q];
-      stiffest = std::max(stiffest, s.stiffness[static_cast<std::size_t>(slot)]);
-      loose = loose || (s.stiffness[static_cast<std::size_t>(slot)] > 0 && !active(s, f, slot));
-      const double dx = vx[p] - vx[static_cast<std::size_t>(j)], dy = vy[p] - vy[static_cast<std::size_t>(j)];
-      sx += b[0] * dx + b[1] * dy;
-      sy += b[1] * dx + b[2] * dy;
+  for (int row = 0; row < rows; ++row) {
+    for (int d = 0; d < 3; ++d) {
+      const Lattice::Line line = s.lattice.line(row, d);
+      for (int i = line.begin; i < line.end; ++i) {
+        const Block b = tangent_block(s, f, d * n + i);
+        const auto k = static_cast<std::size_t>(d * n + i);
+        xx_[k] = b[0], xy_[k] = b[1], yy_[k] = b[2];
+      }
     }
-    Block held = sum;
-    hold(held, stiffest, loose);
-    sx += (held[0] - sum[0]) * vx[p] + (held[1] - sum[1]) * vy[p];
-    sy += (held[1] - sum[1]) * vx[p] + (held[2] - sum[2]) * vy[p];
-    out_x[p] = (s.fixed[p] & 1) ? 0.0 : sx;
-    out_y[p] = (s.fixed[p] & 2) ? 0.0 : sy;
+  }
+  std::vector<std::vector<Held>> found(static_cast<std::size_t>(rows));
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (int row = 0; row < rows; ++row) {
+    for (int i = row * s.lattice.columns; i < (row + 1) * s.lattice.columns; ++i) {
+      Block sum{0, 0, 0};
+      double stiffest = 0;
+      bool loose = false;
+      for (int d = 0; d < 6; ++d) {
+        const int j = s.lattice.neighbour(i, d);
+        if (j < 0) continue;
+        const int slot = d < 3 ? d * n + i : (d - 3) * n + j;
+        const auto k = static_cast<std::size_t>(slot);
+        sum[0] += xx_[k], sum[1] += xy_[k], sum[2] += yy_[k];
+        stiffest = std::max(stiffest, s.stiffness[k]);
+        loose = loose || (s.stiffness[k] > 0 && !active(s, f, slot));
+      }
+      Block held = sum;
+      hold(held, stiffest, loose);
+      if (held != sum)
+        found[static_cast<std::size_t>(row)].push_back({i, {held[0] - sum[0], held[1] - sum[1], held[2] - sum[2]}});
+    }
+  }
+  for (const auto& row : found) held_.insert(held_.end(), row.begin(), row.end());
+}
+
+void TangentOperator::apply(std::span<const double> vx, std::span<const double> vy, std::span<double> out_x,
+                            std::span<double> out_y) const {
+  const Sheet& s = *sheet_;
+  const auto n = static_cast<std::size_t>(s.particles()), columns = static_cast<std::size_t>(s.lattice.columns);
+  const int rows = s.lattice.rows;
+  constexpr int band = 16;  // each computes the row below its first one again
+  const int bands = (rows + band - 1) / band;
+#pragma omp parallel num_threads(threads_)
+  {
+    std::vector<double> buffer(12 * columns);
+#pragma omp for schedule(static)
+    for (int b = 0; b < bands; ++b) {
+      for (int r = std::max(0, b * band - 1); r < std::min(rows, (b + 1) * band); ++r) {
+        double* own = buffer.data() + static_cast<std::size_t>(r % 2) * 6 * columns;
+        const double* lower = buffer.data() + static_cast<std::size_t>((r + 1) % 2) * 6 * columns;
+        const auto start = static_cast<std::size_t>(r) * columns;
+        std::fill_n(own, 6 * columns, 0.0);
+        for (std::size_t d = 0; d < 3; ++d) {
+          const Lattice::Line line = s.lattice.line(r, static_cast<int>(d));
+          const double *xx = xx_.data() + d * n, *xy = xy_.data() + d * n, *yy = yy_.data() + d * n;
+          double *tx = own + 2 * d * columns, *ty = tx + columns;
+#pragma GCC ivdep
+          for (int i = line.begin; i < line.end; ++i) {
+            const auto p = static_cast<std::size_t>(i), q = static_cast<std::size_t>(i + line.offset);
+            const double dx = vx[p] - vx[q], dy = vy[p] - vy[q];
+            tx[p - start] = xx[p] * dx + xy[p] * dy;
+            ty[p - start] = xy[p] * dx + yy[p] * dy;
+          }
+        }
+        if (r < b * band) continue;
+        const bool shifted = s.lattice.shifted(r);
+        for (std::size_t c = 0; c < columns; ++c) {
+          double x = (own[c] + own[2 * columns + c]) + own[4 * columns + c];
+          double y = (own[columns + c] + own[3 * columns + c]) + own[5 * columns + c];
+          if (c > 0) x -= own[c - 1], y -= own[columns + c - 1];
+          const std::size_t east = shifted ? c + 1 : c;  // of the two below
+          if (r > 0 && east > 0) x -= lower[2 * columns + east - 1], y -= lower[3 * columns + east - 1];
+          if (r > 0 && east < columns) x -= lower[4 * columns + east], y -= lower[5 * columns + east];
+          const auto i = start + c;
+          out_x[i] = (s.fixed[i] & 1) ? 0.0 : x;
+          out_y[i] = (s.fixed[i] & 2) ? 0.0 : y;
+        }
+      }
+    }
+  }
+  for (const Held& h : held_) {
+    const auto i = static_cast<std::size_t>(h.particle);
+    if (!(s.fixed[i] & 1)) out_x[i] += h.extra[0] * vx[i] + h.extra[1] * vy[i];
+    if (!(s.fixed[i] & 2)) out_y[i] += h.extra[1] * vx[i] + h.extra[2] * vy[i];
   }
 }
 

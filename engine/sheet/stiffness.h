@@ -30,8 +30,23 @@ Block diagonal_of(const Sheet& sheet, const BlockMatrix& matrix, int particle);
 /// Assembles the whole matrix.
 BlockMatrix assemble(const Sheet& sheet, const Forces& forces, Tangent tangent = Tangent::exact);
 
-/// out = K v with the tangent of the present state (particles held as in `assemble`), zero along held directions.
-void apply_tangent(const Sheet& sheet, const Forces& forces, std::span<const double> vx, std::span<const double> vy,
-                   std::span<double> out_x, std::span<double> out_y, int threads);
+/// The tangent of one state, to be applied to many vectors.
+class TangentOperator {
+ public:
+  TangentOperator(const Sheet& sheet, const Forces& forces, int threads);
+  /// out = K v (particles held as in `assemble`), zero along held directions. Same bits for any number of threads.
+  void apply(std::span<const double> vx, std::span<const double> vy, std::span<double> out_x,
+             std::span<double> out_y) const;
+
+ private:
+  const Sheet* sheet_;
+  int threads_;
+  std::vector<double> xx_, xy_, yy_;  // of each slot
+  struct Held {
+    int particle;
+    Block extra;
+  };
+  std::vector<Held> held_;
+};
 
 }  // namespace dem::sheet
