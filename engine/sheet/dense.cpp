@@ -294,19 +294,8 @@ DEM_CLONES void backward(const ThinPanel& panel, float* t) {
   }
 }
 
-DEM_CLONES double dot_of(const double* a, const double* b, std::size_t n) {
-  V4 s0{}, s1{};
-  std::size_t i = 0;
-  for (; i + 8 <= n; i += 8) {
-    s0 += load(a + i) * load(b + i);
-    s1 += load(a + i + 4) * load(b + i + 4);
-  }
-  double r = sum(s0) + sum(s1);
-  for (; i < n; ++i) r += a[i] * b[i];
-  return r;
-}
-
-DEM_CLONES double dot_of(const float* a, const float* b, std::size_t n) {
+template <class Float>
+inline __attribute__((always_inline)) double products(const Float* a, const Float* b, std::size_t n) {
   V4 s0{}, s1{};
   std::size_t i = 0;
   for (; i + 8 <= n; i += 8) {
@@ -317,6 +306,8 @@ DEM_CLONES double dot_of(const float* a, const float* b, std::size_t n) {
   for (; i < n; ++i) r += static_cast<double>(a[i]) * static_cast<double>(b[i]);
   return r;
 }
+DEM_CLONES double dot_of(const double* a, const double* b, std::size_t n) { return products(a, b, n); }
+DEM_CLONES double dot_of(const float* a, const float* b, std::size_t n) { return products(a, b, n); }
 
 }  // namespace
 
