@@ -46,10 +46,8 @@ inline __attribute__((always_inline)) Two load_two(const unsigned char* p) {
   std::memcpy(&v, p, sizeof v);
   return {__builtin_convertvector(v << 16, F8), __builtin_convertvector(v & -65536, F8)};
 }
-inline __attribute__((always_inline)) void store(double* p, const V4& v) { std::memcpy(p, &v, sizeof v); }
 inline __attribute__((always_inline)) void store(float* p, const F8& v) { std::memcpy(p, &v, sizeof v); }
 inline __attribute__((always_inline)) double sum(const V4& v) { return (v[0] + v[2]) + (v[1] + v[3]); }
-inline __attribute__((always_inline)) void store8(float* p, const F8& v) { std::memcpy(p, &v, sizeof v); }
 // {sum of a[0], sum of a[1], ...}
 inline __attribute__((always_inline)) F8 sums(const F8 (&a)[8]) {
   F8 pairs[4], fours[2];
@@ -249,7 +247,7 @@ DEM_CLONES void forward(const ThinPanel& panel, float* t) {
     const unsigned char* h = at->bytes;
     F8 y{};
     for (int q = 0; q < 8; ++q) y += triangle_column(h, q) * t[j + q];
-    store8(t + j, y);
+    store(t + j, y);
     const F8 z = y * scales_of(h);
     float* out = t + j + 8;
     const unsigned char* in = at[head_lines].bytes;
@@ -264,7 +262,7 @@ DEM_CLONES void forward(const ThinPanel& panel, float* t) {
         const Two c = load_two(in + 32 * q);
         v[q] = c.first * z[2 * q] + c.second * z[2 * q + 1];
       }
-      store8(out, load8(out) - ((v[0] + v[1]) + (v[2] + v[3])));
+      store(out, load8(out) - ((v[0] + v[1]) + (v[2] + v[3])));
     }
   }
 }
@@ -290,7 +288,7 @@ DEM_CLONES void backward(const ThinPanel& panel, float* t) {
     at += 2 * squares + head_lines;
     const F8 v = load8(t + j) - sums(s) * scales_of(h);
     for (int q = 0; q < 8; ++q) s[q] = triangle_column(h, q) * v;
-    store8(t + j, sums(s));
+    store(t + j, sums(s));
   }
 }
 
