@@ -12,6 +12,7 @@
 #include "engine/core/files.h"
 #include "engine/core/hash.h"
 #include "reports/csv.h"
+#include "reports/figures/parts.h"
 #include "reports/text.h"
 #include "reports/workers.h"
 
@@ -190,23 +191,22 @@ render::Band thinned(const render::Band& band, std::size_t points) {
 
 }  // namespace
 
-std::vector<const Figure*> chosen_figures(const StudyResult& study, const std::string& only) {
+ChosenFigures chosen_figures(const StudyResult& study, const std::string& only) {
+  if (!only.empty()) return {{&named_figure(study, only)}};
   std::vector<const Figure*> chosen;
-  if (!only.empty()) return {&named_figure(study, only)};
   for (const std::string& id : study.scenario->texts("figures")) chosen.push_back(&named_figure(study, id));
-  if (!chosen.empty()) return chosen;
+  if (!chosen.empty()) return {chosen};
   for (const Figure& figure : figures()) {
     if (figure.model == study.scenario->model() && belongs(figure, study.scenario->name())) chosen.push_back(&figure);
   }
-  if (!chosen.empty()) return chosen;
-  // A scenario of the user's own: every figure of its model.
+  if (!chosen.empty()) return {chosen};
   for (const Figure& figure : figures()) {
     if (figure.model == study.scenario->model()) chosen.push_back(&figure);
   }
-  return chosen;
+  return {chosen, true};
 }
 
-Drawings draw_figures(const StudyResult& study, const std::vector<const Figure*>& chosen, const ReportOptions& options,
+Drawings draw_figures(const StudyResult& study, const ChosenFigures& chosen, const ReportOptions& options,
                       const CanvasSource& canvas) {
   const std::vector<std::string> everything{""};
   const render::Provenance facts{{"Scenario", study.scenario->name()},
@@ -217,19 +217,22 @@ Drawings draw_figures(const StudyResult& study, const std::vector<const Figure*>
   dem::make_folder(options.folder / "data");
   Drawings made;
   std::vector<FigureContent> contents;  // jobs point into their panels
-  for (const Figure* figure : chosen) {
-    DrawnFigure& drawn = made.figures.emplace_back(DrawnFigure{.figure = figure});
-    drawn.number = static_cast<int>(made.figures.size());
-    contents.push_back(content_of(study, *figure, drawn));
+  for (const Figure* figure : chosen.figures) {
+    DrawnFigure drawn{.figure = figure};
+    FigureContent content = content_of(study, *figure, drawn);
+    if (chosen.whole_model && std::ranges::all_of(content.panels, is_note)) continue;
+    drawn.number = static_cast<int>(made.figures.size()) + 1;
+    made.figures.push_back(std::move(drawn));
+    contents.push_back(std::move(content));
   }
   std::vector<Job> jobs;
-  for (std::size_t f = 0; f < chosen.size(); ++f) {
-    for (const Panel& panel : contents[f].panels) jobs.push_back(job_of(*chosen[f], panel, facts));
+  for (std::size_t f = 0; f < contents.size(); ++f) {
+    for (const Panel& panel : contents[f].panels) jobs.push_back(job_of(*made.figures[f].figure, panel, facts));
   }
   const std::vector<Drawn> results = draw_all(jobs, options, canvas);
   auto job = jobs.begin();
   auto result = results.begin();
-  for (std::size_t f = 0; f < chosen.size(); ++f) {
+  for (std::size_t f = 0; f < contents.size(); ++f) {
     DrawnFigure& drawn = made.figures[f];
     for (const Panel& panel : contents[f].panels) {
       DrawnPanel shown = described(panel, (job++)->name);

@@ -39,9 +39,14 @@ struct DrawnFigure {
   std::vector<std::string> files{};
 };
 
-/// The figures that belong to the study's scenario: those of its key `figures`, else those that name the scenario.
+/// The figures that belong to the study's scenario: those of its key `figures`, else those that name the scenario, else
+/// every one of its model (a scenario of the user's own): then those that have nothing to draw are left out.
+struct ChosenFigures {
+  std::vector<const Figure*> figures;
+  bool whole_model = false;
+};
 /// Throws dem::InputError when `only` is no figure of this model.
-std::vector<const Figure*> chosen_figures(const StudyResult& study, const std::string& only);
+ChosenFigures chosen_figures(const StudyResult& study, const std::string& only);
 
 struct Drawings {
   std::vector<DrawnFigure> figures;
@@ -49,7 +54,7 @@ struct Drawings {
 };
 
 /// Draws them into options.folder, in options.workers processes, or in this one with the canvas. Same bytes either way.
-Drawings draw_figures(const StudyResult& study, const std::vector<const Figure*>& chosen, const ReportOptions& options,
+Drawings draw_figures(const StudyResult& study, const ChosenFigures& chosen, const ReportOptions& options,
                       const CanvasSource& canvas);
 
 /// The chart with no more than `points` points in all its curves: of each stretch of a curve the first, lowest, highest

@@ -18,6 +18,7 @@ constexpr double slight_change = 0.0005;  // the factor follows where it was see
 constexpr double least_heat = 0.01;       // share of the unbalanced force that a solve left there
 constexpr int tile = 16;                  // particles a side of the squares in which that is noted
 constexpr int most_changes = 300;         // rank beyond which corrections cost more than a new factor
+constexpr int most_weakened = 8;          // removals that left a pair unheld, before a new factor
 constexpr double peak_share = 0.02;       // of the largest unbalanced force: what patches are laid around
 constexpr std::size_t most_hot = 2000, most_patches = 3;
 constexpr double slight_load = 1e-4;  // of the largest unbalanced force: what waits for a later step
@@ -442,6 +443,8 @@ struct ConvergedSolver::Impl {
         fresh = true;
       } else {
         follow(sheet, forces);
+        // Around a crushed place: what little each removal leaves adds up to nothing that could be solved with.
+        if (factor.weakened() > most_weakened) factorise(sheet, forces, Extent::part), fresh = true;
       }
       const int solves = global_step(sheet, forces, slow >= 2);
       warm(sheet, forces, before);

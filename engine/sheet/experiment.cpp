@@ -73,12 +73,19 @@ void Experiment::load_step() {
   const WallStress wall = wall_stress(*sheet_, forces_);
   state_.peak_xx = wall.xx;
   state_.peak_yy = wall.yy;
+  state_.peak_stress = std::max(state_.peak_stress, std::fabs(wall.xx - wall.yy));
   state_.breaking = true;
+}
+
+bool Experiment::failed() const {
+  if (loading_.stop_share <= 0) return false;
+  const WallStress wall = wall_stress(*sheet_, forces_);
+  return std::fabs(wall.xx - wall.yy) < loading_.stop_share * state_.peak_stress;
 }
 
 bool Experiment::break_one() {
   Sheet& s = *sheet_;
-  if (static_cast<int>(state_.breaks.size()) >= loading_.most_breaks) return false;
+  if (static_cast<int>(state_.breaks.size()) >= loading_.most_breaks || failed()) return false;
   const Critical critical = most_critical(s, forces_, threads_);
   if (critical.slot < 0 || critical.ratio < 1) return false;
   const auto i = static_cast<std::size_t>(s.first(critical.slot)),
@@ -118,10 +125,7 @@ void Experiment::close_step() {
   sample.breaks = static_cast<int>(state_.breaks.size());
   sample.iterations = static_cast<int>(solver_->work().solves);
   state_.samples.push_back(sample);
-  state_.peak_stress = std::max(state_.peak_stress, std::fabs(state_.peak_xx - state_.peak_yy));
-  const double now = std::fabs(wall.xx - wall.yy);
-  const bool failed = loading_.stop_share > 0 && now < loading_.stop_share * state_.peak_stress;
-  state_.finished = state_.step >= loading_.steps || failed || sample.breaks >= loading_.most_breaks;
+  state_.finished = state_.step >= loading_.steps || failed() || sample.breaks >= loading_.most_breaks;
 }
 
 bool Experiment::advance() {

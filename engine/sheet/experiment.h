@@ -23,7 +23,8 @@ struct Loading {
   double step = 0.001;        ///< strain of one step; for growth the largest share in `grows`
   int steps = 10;             ///< at most
   int most_breaks = 1 << 30;  ///< the run ends after so many
-  double stop_share = 0;      ///< ends when the differential stress falls below this share of its peak; 0: never
+  double stop_share = 0;      ///< ends after the break by which the differential stress falls below this share of its
+                              ///< peak, amid a load step; 0: never
   int substeps = 4;           ///< of a step, once springs are broken (contacts open and close on the way)
   std::vector<double> grows;  ///< growth of each particle's radius in a step, as a share; for growth
 };
@@ -97,6 +98,7 @@ class Experiment {
  private:
   void load_step();
   bool break_one();
+  [[nodiscard]] bool failed() const;
   void close_step();
   void apply(double share);
   void relaxed(const Relaxation& r);

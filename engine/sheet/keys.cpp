@@ -54,7 +54,7 @@ std::vector<Key> declare() {
       whole("loading.steps", 1, 100000, "10", "load steps at most"),
       whole("loading.most_breaks", 0, 1e9, "0", "ends the run after so many broken springs; 0: no limit"),
       number("loading.stop_share", 0, 1, "0.0",
-             "ends the run when the differential stress is below this share of its peak"),
+             "ends the run at the break by which the differential stress falls below this share of its peak; 0: never"),
       whole("loading.substeps", 1, 1000, "4", "parts of a load step once springs are broken, for the work done"),
       Key{"loading.snapshots", reals, "", 0, 10, {}, "[]", "strains at which fields are kept; the end is always kept"},
       Key{"solvers", texts, "", -inf, inf, {"converged", "as_published"}, "[\"converged\"]", "a case for each"},

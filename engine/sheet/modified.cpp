@@ -8,6 +8,9 @@ namespace {
 
 // A removal that leaves less than this share of a spring's stiffness along it is weakened to leave this share.
 constexpr double least_share = 1e-4;
+// No removal leaves a pair freer than this many times its spring's own compliance: removals around one loose fragment
+// would otherwise each make it 1/least_share softer, without bound.
+constexpr double most_compliance = 1e5;
 
 double dot_paths(const PathVector& a, const PathVector& b, const Dissection& d) {
   std::size_t i = 0, j = 0, at = 0, bt = 0;
@@ -35,6 +38,7 @@ int ModifiedFactor::factorise(const BlockMatrix& matrix, PivotRule rule) {
   paths_.clear();
   lower_.clear();
   pivots_.clear();
+  weakened_ = 0;
   return factor_.factorise(matrix, rule);
 }
 
@@ -42,6 +46,7 @@ int ModifiedFactor::factorise(const BlockMatrix& matrix, std::span<const std::ui
   paths_.clear();
   lower_.clear();
   pivots_.clear();
+  weakened_ = 0;
   return factor_.factorise(matrix, stale, rule);
 }
 
@@ -70,10 +75,14 @@ double ModifiedFactor::change(double c, int i, int j, std::array<double, 2> n, s
     row[k] = l;
   }
   // The pivot of a removal is -(1/|c| - compliance): it vanishes when nothing else holds the pair along b.
-  if (c < 0 && 1 + c * compliance < least_share) c = -(1 - least_share) / std::max(compliance, 1e-300);
+  if (c < 0 && 1 + c * compliance < least_share) {
+    const double after = std::min(compliance / least_share, most_compliance / -c);
+    c = std::min(0.0, 1 / after - 1 / compliance);
+    ++weakened_;
+  }
   paths_.push_back(std::move(y));
   lower_.push_back(std::move(row));
-  pivots_.push_back(1 / c + compliance);
+  pivots_.push_back(1 / c + compliance);  // infinite for one left out: it corrects nothing
   return c;
 }
 

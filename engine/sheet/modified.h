@@ -27,6 +27,8 @@ class ModifiedFactor {
   void solve(std::span<double> b);
 
   [[nodiscard]] int changes() const { return static_cast<int>(paths_.size()); }
+  /// Removals since the factorisation that left nothing to hold a pair, and were made in part.
+  [[nodiscard]] int weakened() const { return weakened_; }
   [[nodiscard]] Factor& factor() { return factor_; }
 
  private:
@@ -37,6 +39,7 @@ class ModifiedFactor {
   std::vector<PathVector> paths_;           // Y = L^-1 B
   std::vector<std::vector<double>> lower_;  // rows of the unit lower factor of S = C^-1 + Y^T Y = L D L^T
   std::vector<double> pivots_;              // D
+  int weakened_ = 0;
   std::vector<std::uint8_t> active_;
   std::vector<float> y_;
 };

@@ -178,6 +178,11 @@ Panel note_panel(std::string id, std::string caption, std::string text) {
           .per_row = 1};
 }
 
+bool is_note(const Panel& panel) {
+  const auto* table = std::get_if<TextTable>(&panel.content);
+  return table && table->head == std::vector<std::string>{"Not drawn"};
+}
+
 double result_or_nan(const dem::Record& record, std::string_view name) {
   return record.has_result(name) ? record.result(name) : std::numeric_limits<double>::quiet_NaN();
 }

@@ -84,6 +84,7 @@ double at_first(std::span<const double> x, std::span<const double> y, double at)
 
 /// A note in a panel's place.
 Panel note_panel(std::string id, std::string caption, std::string text);
+bool is_note(const Panel& panel);
 
 /// Result of a record, or NaN.
 double result_or_nan(const dem::Record& record, std::string_view name);

@@ -172,6 +172,10 @@ FigureContent radial_fractures(const StudyResult& study) {
   content.statement = "Fractures around growing grains are radial.";
   const dem::Record* r = main_record(study);
   if (!r) return content;
+  if (r->text("test") != "growth") {
+    content.panels.push_back(note_panel("", "Angle to the radial direction.", "No grain grows in this run."));
+    return content;
+  }
   const auto angles = off_radial(*r);
   if (angles.empty()) {
     content.panels.push_back(

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "engine/sheet/experiment.h"
@@ -69,6 +70,28 @@ TEST_CASE("energy is accounted for through failure: work = elastic + released") 
     CHECK(experiment.energy_residual() <= 1e-4);
     MESSAGE("breaks " << last.breaks << ", energy residual " << experiment.energy_residual());
   }
+}
+
+TEST_CASE("a run ends at the break by which the stress falls below its share of the peak") {
+  Sheet sheet = reference::polycrystal(40);
+  ConvergedSolver solver(sheet, {});
+  Loading loading = shear(1 << 30);
+  loading.stop_share = 0.8;
+  Experiment experiment(sheet, solver, loading, 1);
+  std::vector<double> stress;
+  experiment.run([&](const Experiment& e) {
+    const WallStress wall = wall_stress(e.sheet(), e.forces());
+    stress.push_back(std::fabs(wall.xx - wall.yy));
+    return true;
+  });
+  const double peak = *std::max_element(stress.begin(), stress.end());
+  CHECK(experiment.state().peak_stress == peak);
+  CHECK(experiment.state().step < loading.steps);
+  CHECK(stress.back() < 0.8 * peak);
+  // Amid a load step: the break before left more than that.
+  CHECK(stress[stress.size() - 2] >= 0.8 * peak);
+  CHECK(experiment.state().samples.back().breaks == static_cast<int>(experiment.state().breaks.size()));
+  CHECK(experiment.energy_residual() <= 1e-4);
 }
 
 TEST_CASE("one or three threads give the same bits") {
