@@ -141,10 +141,11 @@ FigureContent fracture_maps(const StudyResult& study) {
 
 FigureContent rose_of_fractures(const StudyResult& study) {
   FigureContent content;
-  content.statement = "Fractures in the polycrystal run parallel to the compression.";
   std::vector<std::string> said;
   for (const dem::Record* r : records_of(study)) {
-    if (r->text("solver") != "converged") continue;
+    if (r->text("solver") != "converged" || !r->has_result("along_compression_share")) continue;
+    if (r->text("test") == "pure_shear")
+      content.statement = "Fractures in the polycrystal run parallel to the compression.";
     const auto angles = trends_of(*r);
     if (angles.empty()) continue;
     const double share = result_or_nan(*r, "along_compression_share");
@@ -156,7 +157,8 @@ FigureContent rose_of_fractures(const StudyResult& study) {
                                 "sector.",
                                 count(static_cast<double>(angles.size())), label),
          .alt = fmt::format("{} of the trends lie within 30° of the compression.", percent(share, 0)),
-         .content = rose(angles, std::numbers::pi / 2, "direction of compression"),
+         .content =
+             rose(angles, r->text("test") == "compression" ? 0.0 : std::numbers::pi / 2, "direction of compression"),
          .per_row = 2});
     said.push_back(fmt::format("{}: {}", label, percent(share, 0)));
   }
