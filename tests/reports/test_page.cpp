@@ -212,6 +212,26 @@ TEST_CASE("records without their tables give notes, not crashes; --only draws on
   CHECK_THROWS_WITH_AS(reports::make_report(study.result(), options, canvas, {}), doctest::Contains("crack_maps"), dem::InputError);
 }
 
+TEST_CASE("a scenario of one's own shows the figures of its model that have something to draw") {
+  const test::Scratch scratch;
+  const dem::Scenario own = synthetic::scenario(scratch.path(), "tunnel_wall");
+  const dem::Record record = synthetic::compression(1, {.diameter = 3e-3, .height = 6e-3, .samples = 10});
+  auto options = options_for(scratch / "out");
+  options.pdf = false;
+  reports::make_report({&own, {{record.case_id, &record, ""}}}, options, canvas, {});
+  const auto summary = nlohmann::json::parse(dem::read_file(scratch / "out/summary.json"));
+  std::set<std::string> ids;
+  for (const auto& figure : summary.at("figures")) ids.insert(figure.at("id").get<std::string>());
+  CHECK(ids.contains("specimen"));
+  CHECK(ids.contains("energy_compression"));
+  CHECK_FALSE(ids.contains("energy_tension"));      // no test in tension
+  CHECK_FALSE(ids.contains("confinement_after_peak"));
+  CHECK_FALSE(ids.contains("genesis_steps"));
+  const std::string html = dem::read_file(scratch / "out/report.html");
+  CHECK(html.find("could not be drawn") == std::string::npos);
+  CHECK(html.find("Figure 1.") != std::string::npos);
+}
+
 TEST_CASE("an error in WeasyPrint's log fails the run and leaves no PDF") {
   const test::Scratch scratch;
   const std::string html = "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>x</title></head><body>"
