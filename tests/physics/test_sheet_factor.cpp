@@ -61,6 +61,15 @@ std::vector<double> random_load(const Sheet& s, const Dissection& d) {
   return b;
 }
 
+// Takes a whole spring out of the sheet and the factor; returns the coefficient that was applied.
+double remove(Sheet& s, const Forces& f, ModifiedFactor& factor, int slot) {
+  const auto at = static_cast<std::size_t>(slot);
+  const auto i = static_cast<std::size_t>(s.first(slot)), j = static_cast<std::size_t>(s.second(slot));
+  s.joined[at] = 0;
+  return factor.change(-s.stiffness[at], s.first(slot), s.second(slot),
+                       {(s.x[j] - s.x[i]) / f.length[at], (s.y[j] - s.y[i]) / f.length[at]}, s.fixed);
+}
+
 }  // namespace
 
 TEST_CASE("a dissection orders every particle once, children before parents") {
@@ -98,10 +107,7 @@ TEST_CASE("changes follow broken springs: the changed factor solves the changed 
     const int slot = static_cast<int>(random.below(static_cast<std::uint64_t>(s.slots())));
     const auto at = static_cast<std::size_t>(slot);
     if (!s.joined[at]) continue;
-    s.joined[at] = 0;
-    const auto i = static_cast<std::size_t>(s.first(slot)), j = static_cast<std::size_t>(s.second(slot));
-    const double c = factor.change(-s.stiffness[at], static_cast<int>(i), static_cast<int>(j),
-                                   {(s.x[j] - s.x[i]) / f.length[at], (s.y[j] - s.y[i]) / f.length[at]}, s.fixed);
+    const double c = remove(s, f, factor, slot);
     CHECK(c == -s.stiffness[at]);
     compute_forces(s, f, 1);
     // At rest a broken pair neither pulls nor presses: its tension is exactly or nearly nothing.
@@ -128,11 +134,7 @@ TEST_CASE("cutting a particle loose leaves a factor that still solves") {
   for (int direction = 0; direction < 6; ++direction) {
     const int other = s.lattice.neighbour(particle, direction);
     const int slot = direction < 3 ? direction * s.particles() + particle : (direction - 3) * s.particles() + other;
-    const auto at = static_cast<std::size_t>(slot);
-    const auto i = static_cast<std::size_t>(s.first(slot)), j = static_cast<std::size_t>(s.second(slot));
-    s.joined[at] = 0;
-    const double c = factor.change(-1, static_cast<int>(i), static_cast<int>(j),
-                                   {(s.x[j] - s.x[i]) / f.length[at], (s.y[j] - s.y[i]) / f.length[at]}, s.fixed);
+    const double c = remove(s, f, factor, slot);
     weakened = weakened || c != -1;
   }
   CHECK(weakened);  // the last springs hold it alone: they may not vanish from the factor
@@ -150,13 +152,10 @@ TEST_CASE("a crushed zone, every spring of many particles removed, leaves number
   ModifiedFactor factor(d, 1);
   factor.factorise(assemble(s, f));
   for (int slot = 0; slot < s.slots(); ++slot) {
-    const auto at = static_cast<std::size_t>(slot);
-    if (s.stiffness[at] <= 0) continue;
-    const int i = s.first(slot), column = i % 20, row = i / 20;
+    if (s.stiffness[static_cast<std::size_t>(slot)] <= 0) continue;
+    const int column = s.first(slot) % 20, row = s.first(slot) / 20;
     if (column < 7 || column > 12 || row < 8 || row > 13) continue;
-    const auto p = static_cast<std::size_t>(i), q = static_cast<std::size_t>(s.second(slot));
-    s.joined[at] = 0;
-    factor.change(-1, i, s.second(slot), {(s.x[q] - s.x[p]) / f.length[at], (s.y[q] - s.y[p]) / f.length[at]}, s.fixed);
+    remove(s, f, factor, slot);
   }
   CHECK(factor.changes() == 108);
   CHECK(factor.weakened() > 30);  // the solver makes a new factor long before
