@@ -19,8 +19,12 @@ constexpr double least_heat = 0.01;       // share of the unbalanced force that 
 constexpr int tile = 16;                  // particles a side of the squares in which that is noted
 constexpr int most_changes = 300;         // rank beyond which corrections cost more than a new factor
 constexpr int most_weakened = 8;          // removals that left a pair unheld, before a new factor
-constexpr double peak_share = 0.02;       // of the largest unbalanced force: what patches are laid around
-constexpr std::size_t most_hot = 2000, most_patches = 3;
+// Patches are laid around what is unbalanced by a share of the largest unbalanced force: all of it, or else none;
+// after a step that left much, around the worst of it.
+constexpr double peak_share = 0.02, worst_share = 0.05, much = 0.1;
+constexpr std::size_t most_hot = 2000, most_patches = 3, most_worst = 6;
+// A direction of conjugate gradients is solved to this share of its load: roughly while steps gain little.
+constexpr double finest = 0.02, roughest = 0.4;
 constexpr double slight_load = 1e-4;  // of the largest unbalanced force: what waits for a later step
 constexpr double longest_step = 0.2;  // of a particle radius, in one step
 
@@ -217,12 +221,14 @@ struct ConvergedSolver::Impl {
     return std::max(fx, fy);
   }
 
-  // Boxes that cover what is unbalanced above a share of the peak and of the tolerance (none when that takes more than
-  // most_patches boxes).
-  std::vector<LatticeBox> boxes_around(const Sheet& sheet, const Forces& forces) const {
+  enum class Cover { all, worst };
+
+  // Boxes around what is unbalanced above a share of the largest and of the tolerance.
+  std::vector<LatticeBox> boxes_around(const Sheet& sheet, const Forces& forces, Cover cover) const {
     const int rows = sheet.lattice.rows;
     const auto columns = static_cast<std::size_t>(sheet.lattice.columns);
-    const double counts = std::max(0.8 * settings.tolerance * forces.largest, peak_share * forces.unbalanced);
+    const double share = cover == Cover::all ? peak_share : worst_share;
+    const double counts = std::max(0.8 * settings.tolerance * forces.largest, share * forces.unbalanced);
     struct Hot {
       int column, row;
       double size;
@@ -235,18 +241,15 @@ struct ConvergedSolver::Impl {
         if (value > counts) hot.push_back({c, r, value});
       }
     }
+    if (hot.size() >= most_hot) return {};
     std::vector<LatticeBox> boxes;
-    if (hot.size() >= most_hot) return boxes;
-    while (!hot.empty()) {
-      if (boxes.size() == most_patches) {
-        boxes.clear();
-        break;
-      }
+    while (!hot.empty() && boxes.size() < (cover == Cover::all ? most_patches : most_worst)) {
       const Hot worst =
           *std::max_element(hot.begin(), hot.end(), [](const Hot& a, const Hot& b) { return a.size < b.size; });
       boxes.push_back(Patches::around(sheet.lattice, worst.column, worst.row));
       std::erase_if(hot, [&](const Hot& h) { return Patches::covers(sheet.lattice, boxes.back(), h.column, h.row); });
     }
+    if (cover == Cover::all && !hot.empty()) boxes.clear();
     return boxes;
   }
 
@@ -398,15 +401,22 @@ struct ConvergedSolver::Impl {
     }
   }
 
-  int global_step(Sheet& sheet, Forces& forces, bool conjugate) {
+  void load(const Sheet& sheet, const Forces& forces) {
     load(sheet, forces, std::max(0.05 * settings.tolerance * forces.largest, slight_load * forces.unbalanced));
-    int solves = 1;
-    if (conjugate) {
-      solves = newton_direction(sheet, forces, 0.02, 20);
-    } else {
-      factor.solve(u);
-      ++done.solves;
-    }
+  }
+
+  int global_step(Sheet& sheet, Forces& forces) {
+    load(sheet, forces);
+    factor.solve(u);
+    ++done.solves;
+    require_finite();
+    search(sheet, forces);
+    return 1;
+  }
+
+  int newton_step(Sheet& sheet, Forces& forces, double share) {
+    load(sheet, forces);
+    const int solves = newton_direction(sheet, forces, share, 20);
     require_finite();
     search(sheet, forces);
     return solves;
@@ -420,6 +430,7 @@ struct ConvergedSolver::Impl {
     for (const int slot : near) watched.insert(std::lower_bound(watched.begin(), watched.end(), slot), slot);
     Relaxation result;
     int slow = 0, patched = 0;
+    double left = 0;  // share of the unbalanced force that the last global step left
     bool fresh = false;
     // The load moved, and every direction turned a little: the breaks that follow are worth a new factor.
     if (!factorised || (!near.empty() && load_moved)) factorise(sheet, forces, Extent::whole), fresh = true;
@@ -430,12 +441,9 @@ struct ConvergedSolver::Impl {
       // Patches come after global steps: what they push over their rim is for the next global step.
       if (!settings.refactor_always && result.iterations > patched) {
         patched = result.iterations;
-        const std::vector<LatticeBox> boxes = boxes_around(sheet, forces);
-        const double small = 0.1 * settings.tolerance * forces.largest;
-        for (const LatticeBox& box : boxes) {
-          patches.relax(sheet, forces, box, small);
-          ++done.patches;
-        }
+        const std::vector<LatticeBox> boxes = boxes_around(sheet, forces, left > much ? Cover::worst : Cover::all);
+        patches.relax(sheet, forces, boxes, 0.1 * settings.tolerance * forces.largest);
+        done.patches += static_cast<std::int64_t>(boxes.size());
         if (!boxes.empty()) continue;
       }
       if (settings.refactor_always || factor.changes() > most_changes || extra_solves > std::max(least_worth, worth)) {
@@ -446,10 +454,12 @@ struct ConvergedSolver::Impl {
         // Around a crushed place: what little each removal leaves adds up to nothing that could be solved with.
         if (factor.weakened() > most_weakened) factorise(sheet, forces, Extent::part), fresh = true;
       }
-      const int solves = global_step(sheet, forces, slow >= 2);
+      const int solves = slow >= 2 ? newton_step(sheet, forces, std::clamp(0.9 * left * left, finest, roughest))
+                                   : global_step(sheet, forces);
+      left = forces.unbalanced / before;
       warm(sheet, forces, before);
       result.iterations += solves;
-      if (forces.unbalanced > 0.3 * before) ++slow;
+      if (left > 0.3) ++slow;
       if (!fresh) extra_solves += solves;
       // A relaxation that goes on and on needs a factor of its own.
       if (result.iterations % 40 < solves && result.iterations >= 40) extra_solves = 2 * most_changes;

@@ -1,9 +1,12 @@
 #pragma once
-// Exact Newton iterations in a small box of the sheet, everything outside held. After a spring breaks, what a linear
-// step leaves unbalanced sits around the break: a patch removes it for a fraction of a global solve.
+// Exact Newton iterations in small boxes of the sheet, everything outside held. After a spring breaks, what a linear
+// step leaves unbalanced sits around the break, and where slivers bend: patches remove it for a fraction of a global
+// solve.
 #include <map>
 #include <memory>
+#include <span>
 #include <tuple>
+#include <vector>
 
 #include "engine/sheet/factor.h"
 #include "engine/sheet/sheet.h"
@@ -17,17 +20,22 @@ class Patches {
   /// True when the particle is far enough inside the box for what its patch pushes over the rim to be small.
   [[nodiscard]] static bool covers(const Lattice& lattice, const LatticeBox& box, int column, int row);
 
-  /// Iterates until no particle of the box is unbalanced by more than `small` (a force), or progress ends.
-  /// `forces` are brought up to date.
-  void relax(Sheet& sheet, Forces& forces, const LatticeBox& box, double small);
+  /// Iterates in each box in turn (in those that do not touch, side by side) until no particle of it is unbalanced by
+  /// more than `small` (a force), or by little of what it was, or progress ends. `forces` are brought up to date.
+  /// Same bits for any number of threads.
+  void relax(Sheet& sheet, Forces& forces, std::span<const LatticeBox> boxes, double small);
 
   explicit Patches(int threads) : threads_(threads) {}
 
  private:
   struct Local;
   using Shape = std::tuple<int, int, bool>;
+  static Shape shape_of(const Sheet& sheet, const LatticeBox& box);
+  Local& local(const Shape& shape, std::size_t which);
+  static void relax(Sheet& sheet, Forces& forces, const LatticeBox& box, double small, Local& local);
+
   int threads_;
-  std::map<Shape, std::shared_ptr<Local>> shapes_;
+  std::map<Shape, std::vector<std::shared_ptr<Local>>> locals_;  // as many of each shape as were needed at once
 };
 
 }  // namespace dem::sheet

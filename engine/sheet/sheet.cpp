@@ -184,17 +184,23 @@ void compute_forces(const Sheet& s, Forces& f, int threads) {
   sum_up(f);
 }
 
-void update_forces(const Sheet& s, Forces& f, const LatticeBox& box) {
+void update_springs(const Sheet& s, Forces& f, const LatticeBox& box) {
   const int columns = s.lattice.columns, n = s.particles();
+  const int r0 = std::max(0, box.r0 - 1), r1 = std::min(s.lattice.rows, box.r1 + 1);
+  const int c0 = std::max(0, box.c0 - 1), c1 = std::min(columns, box.c1 + 1);
+  const auto inside = [&](int i) {
+    const int c = i % columns, r = i / columns;
+    return c >= box.c0 && c < box.c1 && r >= box.r0 && r < box.r1;
+  };
   const auto slot_of = [&](int i, int direction, int j) {
     return static_cast<std::size_t>(direction < 3 ? direction * n + i : (direction - 3) * n + j);
   };
-  for (int r = box.r0; r < box.r1; ++r) {
-    for (int c = box.c0; c < box.c1; ++c) {
-      const int i = r * columns + c;
-      for (int d = 0; d < 6; ++d) {
+  for (int r = r0; r < box.r1; ++r) {
+    for (int i = r * columns + c0; i < r * columns + c1; ++i) {
+      const bool here = inside(i);
+      for (int d = 0; d < 3; ++d) {
         const int j = s.lattice.neighbour(i, d);
-        if (j < 0) continue;
+        if (j < 0 || (!here && !inside(j))) continue;
         const auto k = slot_of(i, d, j), p = static_cast<std::size_t>(i), q = static_cast<std::size_t>(j);
         const double dx = s.x[q] - s.x[p], dy = s.y[q] - s.y[p];
         const double length = std::sqrt(dx * dx + dy * dy);
@@ -204,9 +210,8 @@ void update_forces(const Sheet& s, Forces& f, const LatticeBox& box) {
       }
     }
   }
-  for (int r = std::max(0, box.r0 - 1); r < std::min(s.lattice.rows, box.r1 + 1); ++r) {
-    for (int c = std::max(0, box.c0 - 1); c < std::min(columns, box.c1 + 1); ++c) {
-      const int i = r * columns + c;
+  for (int r = r0; r < r1; ++r) {
+    for (int i = r * columns + c0; i < r * columns + c1; ++i) {
       const auto p = static_cast<std::size_t>(i);
       double fx = 0, fy = 0;
       for (int d = 0; d < 6; ++d) {
@@ -220,9 +225,19 @@ void update_forces(const Sheet& s, Forces& f, const LatticeBox& box) {
       f.x[p] = fx;
       f.y[p] = fy;
     }
+  }
+}
+
+void sum_up(const Sheet& s, Forces& f, const LatticeBox& box) {
+  for (int r = std::max(0, box.r0 - 1); r < std::min(s.lattice.rows, box.r1 + 1); ++r) {
     f.rows[static_cast<std::size_t>(r)] = look_along(s, f, r);
   }
   sum_up(f);
+}
+
+void update_forces(const Sheet& s, Forces& f, const LatticeBox& box) {
+  update_springs(s, f, box);
+  sum_up(s, f, box);
 }
 
 double elastic_energy(const Sheet& s, const Forces& f) {

@@ -67,6 +67,10 @@ struct LatticeBox {
 
 /// Brings forces up to date where only particles and springs of `box` changed: the bits of compute_forces.
 void update_forces(const Sheet& sheet, Forces& forces, const LatticeBox& box);
+/// Its two halves: forces in and next to the box (boxes two particles apart may be done side by side), then the largest
+/// values of its rows and of all.
+void update_springs(const Sheet& sheet, Forces& forces, const LatticeBox& box);
+void sum_up(const Sheet& sheet, Forces& forces, const LatticeBox& box);
 
 /// Half of k (d - l)^2 over all springs and contacts, in one order.
 double elastic_energy(const Sheet& sheet, const Forces& forces);
