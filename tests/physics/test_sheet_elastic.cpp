@@ -6,6 +6,7 @@
 
 #include "engine/sheet/experiment.h"
 #include "engine/sheet/measure.h"
+#include "engine/sheet/patch.h"
 #include "tests/support/near.h"
 
 namespace {
@@ -160,6 +161,59 @@ TEST_CASE("forces brought up to date in a box are those computed anew") {
     CHECK(forces.unbalanced == anew.unbalanced);
     CHECK(forces.worst == anew.worst);
   }
+}
+
+TEST_CASE("slivers that bend come to rest in their patches, side by side as one after the other") {
+  // Two strips of two columns, held at their lower ends only, their tops pushed aside by three diameters.
+  Sheet bent = make_sheet(120);
+  const int columns = bent.lattice.columns, bottom = 30, top = 50;
+  const auto strip_of = [&](int particle) {
+    const int c = particle % columns, r = particle / columns;
+    return r < bottom || r >= top ? 0 : c == 30 || c == 31 ? 1 : c == 90 || c == 91 ? 2 : 0;
+  };
+  const auto beside = [&](int p) {  // taken away, so that the strips have room
+    const int c = p % columns, r = p / columns;
+    return r >= bottom && r < top + 1 && strip_of(p) == 0 && ((c > 24 && c < 37) || (c > 84 && c < 97));
+  };
+  for (int slot = 0; slot < bent.slots(); ++slot) {
+    const auto k = static_cast<std::size_t>(slot);
+    if (bent.stiffness[k] <= 0) continue;
+    const int i = bent.first(slot), j = bent.second(slot);
+    const bool root = std::min(i, j) / columns < bottom;
+    if (beside(i) || beside(j) || (strip_of(i) != strip_of(j) && !root)) bent.stiffness[k] = 0;
+  }
+  for (int p = 0; p < bent.particles(); ++p) {
+    const double up = p / columns - bottom + 1;
+    if (beside(p)) bent.fixed[static_cast<std::size_t>(p)] = 3;
+    if (strip_of(p)) bent.x[static_cast<std::size_t>(p)] += 6 * bent.radius0 * up * up / 400;
+  }
+  const std::vector<LatticeBox> boxes = {Patches::around(bent.lattice, 30, 40), Patches::around(bent.lattice, 90, 40)};
+  Forces before;
+  compute_forces(bent, before, 1);
+  const auto relaxed = [&](int threads, std::vector<std::vector<LatticeBox>> rounds) {
+    std::pair<Sheet, Forces> state{bent, before};
+    Patches patches(threads);
+    for (const auto& round : rounds) patches.relax(state.first, state.second, round, 0.0);
+    return state;
+  };
+  const auto [sheet, forces] = relaxed(1, {boxes});
+  Forces anew;
+  compute_forces(sheet, anew, 1);
+  CHECK(forces.x == anew.x);
+  CHECK(forces.unbalanced == anew.unbalanced);
+  CHECK(forces.largest == anew.largest);
+  const Sheet whole = make_sheet(120);
+  for (const int column : {30, 90}) {  // they stand upright again
+    const auto i = static_cast<std::size_t>((top - 1) * columns + column);
+    CHECK(std::max(std::fabs(forces.x[i]), std::fabs(forces.y[i])) < 1e-3 * before.unbalanced);
+    CHECK(std::fabs(sheet.x[i] - whole.x[i]) < 0.01 * std::fabs(bent.x[i] - whole.x[i]));
+  }
+  const auto on_two = relaxed(2, {boxes});
+  const auto in_turn = relaxed(1, {{boxes[0]}, {boxes[1]}});
+  CHECK(on_two.first.x == sheet.x);
+  CHECK(on_two.second.y == forces.y);
+  CHECK(in_turn.first.x == sheet.x);
+  CHECK(in_turn.second.unbalanced == forces.unbalanced);
 }
 
 TEST_CASE("fractures through a layer are counted, their spacing is set beside chance") {
