@@ -316,7 +316,7 @@ void Assembly::bond_events(Block& block, std::int64_t step, std::int32_t count) 
                             std::numbers::pi * bond.radius * bond.radius});
     pack.field[F::normal][lane] = 0;
     pack.field[F::opening][lane] = huge;
-    pack.field[F::cohesion][lane] = bond.inverse_ratio * mismatch * get(F::length);  // flagged when its faces lose each other
+    pack.field[F::cohesion][lane] = huge;
     pack.field[F::tan_phi][lane] = 0;
   }
 }

@@ -16,7 +16,7 @@ namespace dem::texture {
 namespace {
 
 // Raised whenever results change.
-constexpr std::string_view physics_version = "grain_texture 5";
+constexpr std::string_view physics_version = "grain_texture 6";
 
 // 1 -> "1", 1.5 -> "1_5", 0.675 -> "0_675"
 std::string word(double value) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "reports/envelopes.h"
 #include "reports/figures/table.h"
@@ -24,6 +25,37 @@ double peak_stress(const dem::Record& record) {
 
 std::vector<SeriesCase> confined(const StudyResult& study) {
   return series_of(of_mineral(study, ""), test_compression, confining_axis);
+}
+
+// Strain from the peak to the end of the test that is followed least far beyond its peak (%).
+double common_reach(const std::vector<SeriesCase>& cases) {
+  double reach = std::numeric_limits<double>::infinity();
+  for (const SeriesCase& item : cases) {
+    for (const dem::Record* record : item.repeats) {
+      const auto strain = record->table("history").real("platen_strain"), stress = record->table("history").real("axial_stress");
+      if (strain.empty()) continue;
+      const auto peak = static_cast<std::size_t>(std::ranges::max_element(stress) - stress.begin());
+      reach = std::min(reach, 100 * (strain.back() - strain[peak]));
+    }
+  }
+  return reach;
+}
+
+// Stress over the peak at a strain after it (%): the mean over the tenth of that strain before.
+Measure stress_after_peak(double reach) {
+  return [reach](const dem::Record& record) {
+    const auto strain = record.table("history").real("platen_strain"), stress = record.table("history").real("axial_stress");
+    if (strain.empty()) return std::numeric_limits<double>::quiet_NaN();
+    const auto peak = static_cast<std::size_t>(std::ranges::max_element(stress) - stress.begin());
+    double sum = 0, count = 0;
+    for (std::size_t i = peak; i < strain.size(); ++i) {
+      const double after = 100 * (strain[i] - strain[peak]) / reach;
+      if (after < 0.9 || after > 1 + 1e-9) continue;
+      sum += stress[i];
+      ++count;
+    }
+    return sum / count / stress[peak];
+  };
 }
 
 std::vector<double> tensile_strengths(const StudyResult& study) {
@@ -257,13 +289,24 @@ FigureContent confinement_after_peak(const StudyResult& study) {
   chart.left.title = "Residual over peak stress";
   chart.left.low = 0;
   chart.left.high = 1.1;
+  series.label = "at the end";
   chart.series.push_back(series);
-  chart.legend = render::Chart::Legend::none;
+  const double reach = common_reach(cases);
+  const Measure equal = stress_after_peak(reach);
+  render::Series beside = means(cases, equal);
+  const std::string same_strain = number(reach, 2) + " % of strain after the peak";
+  beside.label = same_strain;
+  beside.colour = damage_colour;
+  beside.line = render::Line::dash;
+  chart.series.push_back(beside);
+  chart.legend = render::Chart::Legend::bottom_right;
   chart.width = 600;
   chart.height = 280;
   const std::string ratios = by_case(cases, residual, 2, "");
-  content.panels.push_back({.id = "residual", .caption = "Residual stress over the peak: the mean over the last twentieth of the strain that all tests are followed to, as a multiple of their peak’s.",
-                            .alt = "Residual over peak " + ratios + ".", .content = chart});
+  content.panels.push_back({.id = "residual", .caption = "Residual stress over the peak: the mean over the last twentieth of the strain that all tests are followed to, as a multiple of their peak’s; "
+                                       "and the stress at one and the same strain after the peak, as far as the shortest test goes.",
+                            .alt = "Residual over peak " + ratios + "; at " + same_strain + " " + by_case(cases, equal, 2, "") + ".",
+                            .content = chart});
   TextTable servo{{"Confining pressure (MPa)", "Largest error of the servo (%)"}, {}};
   double worst = 0;
   for (const SeriesCase& item : cases) {
@@ -279,6 +322,9 @@ FigureContent confinement_after_peak(const StudyResult& study) {
   content.finding = "Residual over peak: " + ratios + ".";
   const std::string trend = trend_words(cases, residual, "", confining_axis);
   if (!trend.empty()) content.finding += " It " + trend + ".";
+  const std::string beside_trend = trend_words(cases, equal, "", confining_axis);
+  content.finding += " At " + same_strain + " the stress is " + by_case(cases, equal, 2, "") + " of the peak";
+  content.finding += beside_trend.empty() ? "." : ": it " + beside_trend + ".";
   if (!servo.rows.empty()) content.finding += " The confining pressure is kept within " + number(worst, 2) + " %.";
   return content;
 }

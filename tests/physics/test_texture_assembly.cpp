@@ -169,3 +169,61 @@ TEST_CASE("two gripped particles fail at the strength of their bond") {
     CHECK(work == test::near(0.5 * strength * opening).epsilon(1e-2));
   }
 }
+
+TEST_CASE("a particle that spins between two others is stopped by friction as a ball between two plates, its account closed") {
+  const Settings s = dem_test::granite(10, 20);
+  for (const bool bonded : {false, true}) {
+    CAPTURE(bonded);
+    const double r = 0.4e-3;
+    AssemblyInput input;
+    input.position = {{0, 0, r}, {0, 0, 3 * r}, {0, 0, 5 * r}};
+    input.radius = {r, r, r};
+    input.density = {2600, 2600, 2600};
+    input.mineral = {1, 1, 1};
+    input.grip = {1, 0, 2};
+    input.damping = 0;
+    for (const std::int32_t lower : {0, 1}) {
+      BondSpec spec;
+      spec.first = lower;
+      spec.second = lower + 1;
+      spec.boundary = true;
+      spec.frictional = !bonded;
+      spec.group = between(s.minerals[1], s.minerals[1], s.interaction);
+      spec.group.cohesion = 1;  // Pa: it breaks at the first slide
+      spec.group.friction_angle = 0;
+      input.bonds.push_back(spec);
+    }
+    for (const Mineral& a : s.minerals) {
+      input.fresh.emplace_back();
+      for (const Mineral& b : s.minerals) input.fresh.back().push_back(between(a, b, s.interaction));
+      input.wall_modulus.push_back(a.modulus);
+    }
+    Assembly assembly(input, 1);
+    const double squeeze = 1e-4 * r, dt = assembly.time_step();
+    assembly.drive(squeeze / (1000 * dt), -squeeze / (1000 * dt), 1);
+    assembly.advance(1000);
+    assembly.drive(0, 0, 1);
+    assembly.advance(2);
+    const ContactGroup& group = input.bonds[0].group;
+    const double load = 3.141592653589793 * r * r * group.modulus / (2 * r) * squeeze;  // N, of the linear part
+    const double moment = 2 * group.friction * load * r, inertia = 0.4 * assembly.mass(1) * r * r, spin = 3e5;  // rad/s
+    assembly.velocities()[1].v[4] = spin;
+    const Sample given = assembly.advance(1);
+    const double energy = 0.5 * inertia * spin * spin;
+    const auto until = [&](double share) { return static_cast<std::int64_t>(share * inertia * spin / moment / dt); };
+    REQUIRE(static_cast<double>(until(1)) * dt * spin / 2 > 0.5);  // it turns by more than half a radian on the way
+    double worst = 0;
+    for (int k = 0; k < 9; ++k) {
+      const Sample sample = assembly.advance(until(0.1));
+      worst = std::max(worst, std::abs(sample.ledger.residual() - given.ledger.residual()) / energy);
+    }
+    MESSAGE("steps ", until(1.0), ", account ", worst);
+    const double expected = spin - 9 * static_cast<double>(until(0.1)) * dt * moment / inertia;  // some 0.11 of it
+    CHECK(assembly.velocities()[1].v[4] == test::near(expected).epsilon(0.05));
+    CHECK(worst < 2e-4);
+    CHECK(assembly.cracks().size() == (bonded ? 2U : 0U));
+    const Sample rest = assembly.advance(until(1.0));
+    CHECK(std::abs(assembly.velocities()[1].v[4]) < 0.05 * spin);
+    CHECK(rest.ledger.friction == test::near(energy).epsilon(0.02));
+  }
+}
