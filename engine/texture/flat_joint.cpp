@@ -69,6 +69,7 @@ JointResult advance(PartlyBrokenJoint& joint, const Pose<double>& one, const Pos
   const Arms arm = arms(joint, one, m);
   const double kn = joint.law.normal / 3.0;              // of an element, N/m
   const double ks = kn * joint.law.inverse_ratio;
+  const bool torn = mismatched(m);
   const bool closes = joint.open;
   joint.open = false;
   Triple<double> force{0, 0, 0}, couple{0, 0, 0};
@@ -88,6 +89,9 @@ JointResult advance(PartlyBrokenJoint& joint, const Pose<double>& one, const Pos
         breaks_now = true;
       } else if (length * joint.law.inverse_ratio > joint.law.cohesion - at.gap * joint.law.tan_phi) {
         breaks_now = in_shear = true;
+      } else if (torn) {
+        breaks_now = true;
+        in_shear = at.gap < 0;
       }
       element.bonded = !breaks_now;
     }

@@ -15,7 +15,9 @@
 // so an intact joint needs no state and one cheap bound on its largest element stress; only when the bound is passed are
 // the elements looked at one by one. A joint with a broken element is evaluated element by element.
 //
-// Departures: total instead of incremental displacements (kinematics.h); E* = E_c + E_b (see properties.h); all elements
+// Departures: total instead of incremental displacements (kinematics.h), so that what still holds two faces which no longer
+// match (mismatched) is torn: an element that bears the mean of its face only would else be a hinge for any angle, though
+// its rim opens by a hundred times what its strength allows; E* = E_c + E_b (see properties.h); all elements
 // over their strength in a step break in that step; the released energy of a shear crack includes the drop of its shear
 // stress to the friction limit.
 #include "engine/texture/kinematics.h"

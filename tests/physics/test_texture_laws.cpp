@@ -271,6 +271,23 @@ TEST_CASE("flat joint: partial damage, element by element") {
   CHECK(slid.friction_heat > 0);
 }
 
+TEST_CASE("flat joint: an element that still holds is no hinge for large angles, whatever its strength") {
+  const Pair pair;
+  PartlyBrokenJoint j = joint(pair, inside(feldspar(), JointModulus::sum));
+  j.law.opening = j.law.cohesion = 1;  // m: no stress breaks it
+  j.element[0].bonded = j.element[2].bonded = false;
+  const T e2 = cross((1 / pair.length) * pair.d, j.zero_angle);
+  const auto at = [&](double angle) { return moved(pair, {0, 0, 0}, angle * e2); };
+  CHECK(advance(j, at_rest, at(0.99 * mismatch)).breaks == 0);
+  const double before = stored(j, at_rest, at(1.01 * mismatch));
+  const JointResult torn = advance(j, at_rest, at(1.01 * mismatch));
+  REQUIRE(torn.breaks == 1);
+  CHECK(torn.broke[0].element == 1);
+  CHECK_FALSE(torn.broke[0].shear);
+  CHECK(j.broken());
+  CHECK(torn.broke[0].released + torn.friction_heat == test::near(before - stored(j, at_rest, at(1.01 * mismatch))).epsilon(1e-2));
+}
+
 TEST_CASE("the bound that selects joints never misses a break") {
   const Pair pair;
   const ContactGroup g = inside(feldspar(), JointModulus::sum);
