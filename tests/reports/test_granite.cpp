@@ -101,6 +101,26 @@ TEST_CASE("figures under confinement say what the records hold") {
   CHECK(std::ranges::all_of(counts.panels, [](const reports::Panel& p) { return std::get<render::Chart>(p.content).x.title.find("σ₃") != std::string::npos; }));
 }
 
+TEST_CASE("stresses after the peak are compared at one strain after it, as far as the shortest test goes") {
+  Made made("ldb_confinement");
+  for (const double pressure : {0.0, 10.0, 40.0}) {
+    made.add_confined(pressure);
+    // Up to the peak at 1 + pressure / 10 (%), down to a level, and further down from 0.5 % after the peak on.
+    const double peak = 1 + pressure / 10, level = 0.4 + 0.01 * pressure, reach = pressure == 0 ? 0.3 : 2;
+    dem::Table history{.name = "history", .attributes = {}, .columns = {}};
+    std::vector<double> strain, stress;
+    for (double e = 0.05; e < peak + reach + 1e-6; e += 0.01) {
+      strain.push_back(e / 100);
+      stress.push_back(1e8 * (e < peak + 1e-6 ? e / peak : e < peak + 0.5 ? level : 0.1));
+    }
+    history.add("platen_strain", "1", strain);
+    history.add("axial_stress", "Pa", stress);
+    auto& tables = made.records.back().tables;
+    *std::ranges::find(tables, "history", &dem::Table::name) = history;
+  }
+  CHECK(has(reports::texture::confinement_after_peak(made.study()).finding, "At 0.30 % of strain after the peak the stress is 0.40, 0.50 and 0.80 of the peak"));
+}
+
 TEST_CASE("figures show what the paper states beside ours, and nothing for another rock") {
   const auto labels = [](const reports::FigureContent& content) {
     std::vector<std::string> found;
