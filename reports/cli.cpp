@@ -26,7 +26,9 @@ cxxopts::Options options() {
   const auto text = [] { return cxxopts::value<std::string>(); };
   add("o,output", "folder for everything that is written", text()->default_value("out"), "DIR");
   add("scale", "smoke, draft, paper or high", text()->default_value("draft"), "SCALE");
-  add("threads", "threads to simulate with (default: all of the machine), one case on each; results do not depend on it", text(), "N");
+  add("threads",
+      "threads to simulate with (default: all of the machine), one case on each; results do not depend on it", text(),
+      "N");
   add("seed", "seed of the random numbers, in the place of the scenario's", text(), "N");
   add("only", "draw only this figure", text(), "FIGURE");
   add("case", "run only this case", text(), "ID");

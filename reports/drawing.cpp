@@ -66,8 +66,8 @@ DrawnPanel described(const Panel& panel, const std::string& name) {
   if (const auto* chart = std::get_if<render::Chart>(&panel.content)) {
     const Sampled picture = sampled(*chart, points_in_a_picture);
     if (picture.drawn < picture.all) {
-      drawn.note = fmt::format("Drawn from {} of {} points; the CSV has all.", count(static_cast<double>(picture.drawn)),
-                               count(static_cast<double>(picture.all)));
+      drawn.note = fmt::format("Drawn from {} of {} points; the CSV has all.",
+                               count(static_cast<double>(picture.drawn)), count(static_cast<double>(picture.all)));
     }
     drawn.width = chart->width;
     drawn.height = chart->height;
@@ -78,8 +78,10 @@ DrawnPanel described(const Panel& panel, const std::string& name) {
     drawn.legend = picture->legend;
     drawn.per_row = 3;
   }
-  if (const auto* table = std::get_if<TextTable>(&panel.content)) drawn.table = *table;
-  else drawn.image = drawn.files.front();
+  if (const auto* table = std::get_if<TextTable>(&panel.content))
+    drawn.table = *table;
+  else
+    drawn.image = drawn.files.front();
   if (panel.per_row > 0) drawn.per_row = panel.per_row;
   return drawn;
 }
@@ -162,7 +164,8 @@ render::Series thinned(const render::Series& series, std::size_t stretches) {
     const auto first = series.y.begin() + static_cast<std::ptrdiff_t>(begin);
     const auto last = series.y.begin() + static_cast<std::ptrdiff_t>(end);
     std::array<std::size_t, 4> kept{begin, static_cast<std::size_t>(std::min_element(first, last) - series.y.begin()),
-                                    static_cast<std::size_t>(std::max_element(first, last) - series.y.begin()), end - 1};
+                                    static_cast<std::size_t>(std::max_element(first, last) - series.y.begin()),
+                                    end - 1};
     std::ranges::sort(kept);
     const auto unique_end = std::ranges::unique(kept).begin();
     for (auto i = kept.begin(); i != unique_end; ++i) {
@@ -242,7 +245,8 @@ Drawings draw_figures(const StudyResult& study, const ChosenFigures& chosen, con
         shown.height = scene.height;
         if (picture->scale_bar) shown.bar = scale_bar(scene);
       }
-      if (contents[f].panels.size() > 1) shown.letter = std::string(1, static_cast<char>('a' + drawn.panels.size() % 26));
+      if (contents[f].panels.size() > 1)
+        shown.letter = std::string(1, static_cast<char>('a' + drawn.panels.size() % 26));
       drawn.files.insert(drawn.files.end(), shown.files.begin(), shown.files.end());
       drawn.panels.push_back(std::move(shown));
     }
@@ -285,7 +289,9 @@ ScaleBar scale_bar(const render::SceneResult& drawn) {
       break;
     }
   }
-  const auto [scale, unit] = length >= 1 ? std::pair{1.0, "m"} : length >= 1e-3 ? std::pair{1e3, "mm"} : std::pair{1e6, "µm"};
+  const auto [scale, unit] = length >= 1      ? std::pair{1.0, "m"}
+                             : length >= 1e-3 ? std::pair{1e3, "mm"}
+                                              : std::pair{1e6, "µm"};
   return {fmt::format("{:g} {}", length * scale, unit), 100 * length / width};
 }
 

@@ -12,18 +12,18 @@ namespace reports {
 
 /// A bar below a picture that tells its scale.
 struct ScaleBar {
-  std::string text;       ///< "5 mm"
-  double percent = 0;     ///< of the picture's width; 0: none
+  std::string text;    ///< "5 mm"
+  double percent = 0;  ///< of the picture's width; 0: none
 };
 
 /// A panel with what the page needs to show it.
 struct DrawnPanel {
-  std::string letter{};              ///< "a"; "" when the figure has one panel only
+  std::string letter{};  ///< "a"; "" when the figure has one panel only
   std::string caption{}, alt{}, label{};
-  std::string image{};               ///< file to show, relative to the output folder: "figures/x.svg"; "" for tables
+  std::string image{};  ///< file to show, relative to the output folder: "figures/x.svg"; "" for tables
   std::vector<LegendEntry> legend{};
   ScaleBar bar{};
-  TextTable table{};                 ///< when the panel is a table
+  TextTable table{};  ///< when the panel is a table
   int per_row = 1;
   std::string note{};                ///< "Drawn from 10 000 of 48 211 points; the CSV has all."
   std::vector<std::string> files{};  ///< relative to the output folder
@@ -32,9 +32,9 @@ struct DrawnPanel {
 
 struct DrawnFigure {
   const Figure* figure = nullptr;
-  int number = 0;                    ///< from 1, in report order
+  int number = 0;  ///< from 1, in report order
   std::string statement{}, finding{};
-  std::string problem{};             ///< why it could not be made: "" when it could
+  std::string problem{};  ///< why it could not be made: "" when it could
   std::vector<DrawnPanel> panels{};
   std::vector<std::string> files{};
 };
@@ -50,7 +50,7 @@ ChosenFigures chosen_figures(const StudyResult& study, const std::string& only);
 
 struct Drawings {
   std::vector<DrawnFigure> figures;
-  std::string gl_renderer;           ///< "" when nothing was drawn
+  std::string gl_renderer;  ///< "" when nothing was drawn
 };
 
 /// Draws them into options.folder, in options.workers processes, or in this one with the canvas. Same bytes either way.

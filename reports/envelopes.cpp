@@ -59,7 +59,8 @@ Envelopes envelopes_of(const StudyResult& study, std::string_view mineral) {
   found.peak_fit = fit_peak_m(found.peak.sigma_3, found.peak.sigma_1, found.ucs);
   found.free_fit = fit_peak_envelope(found.peak.sigma_3, found.peak.sigma_1);
   found.damage_fit = fit_damage_envelope(found.damage.sigma_3, found.damage.sigma_1, found.ucs);
-  for (const auto& [id, name] : {std::pair{"axial_stiffness", "axial stiffness"}, {"strain_0_1_percent", "stress at 0.1 % strain"},
+  for (const auto& [id, name] : {std::pair{"axial_stiffness", "axial stiffness"},
+                                 {"strain_0_1_percent", "stress at 0.1 % strain"},
                                  {"one_percent_of_cracks", "1 % of the cracks at the peak"},
                                  {"crack_volumetric_strain", "crack volumetric strain"}}) {
     Initiation one{id, name, points_of(cases, result("crack_initiation_MPa." + std::string(id))), {}};

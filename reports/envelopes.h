@@ -22,11 +22,12 @@ struct Initiation {
 
 struct Envelopes {
   StrengthPoints peak, damage;
-  double ucs = 0;                           ///< mean peak at no pressure, MPa; NaN without such a test
-  std::optional<EnvelopeFit> peak_fit;      ///< s = 1, sigma_c held at UCS as in the paper
-  std::optional<EnvelopeFit> free_fit;      ///< s = 1, sigma_c fitted too
-  std::optional<EnvelopeFit> damage_fit;    ///< sigma_c held at UCS
-  std::vector<Initiation> initiation;       ///< axial_stiffness, strain_0_1_percent, one_percent_of_cracks, crack_volumetric_strain
+  double ucs = 0;                         ///< mean peak at no pressure, MPa; NaN without such a test
+  std::optional<EnvelopeFit> peak_fit;    ///< s = 1, sigma_c held at UCS as in the paper
+  std::optional<EnvelopeFit> free_fit;    ///< s = 1, sigma_c fitted too
+  std::optional<EnvelopeFit> damage_fit;  ///< sigma_c held at UCS
+  std::vector<Initiation>
+      initiation;  ///< axial_stiffness, strain_0_1_percent, one_percent_of_cracks, crack_volumetric_strain
   /// A fitted value by name: "peak.m", "free.sigma_c", "free.m", "damage.m", "damage.s", "initiation.axial_stiffness.intercept",
   /// "initiation.axial_stiffness.slope" and those of the other readings.
   [[nodiscard]] std::optional<Estimate> find(std::string_view name) const;

@@ -16,7 +16,8 @@ double StudyResult::published_value(std::string_view id) const {
 }
 
 bool of_published_rock(const StudyResult& study) {
-  return !study.scenario || study.scenario->model() != "grain_texture" || study.scenario->text("rock") == "Lac du Bonnet granite";
+  return !study.scenario || study.scenario->model() != "grain_texture" ||
+         study.scenario->text("rock") == "Lac du Bonnet granite";
 }
 
 }  // namespace reports

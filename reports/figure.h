@@ -2,9 +2,9 @@
 // Figures: one published figure each, redrawn from records. A figure is one file in reports/figures ending in one entry
 // of the explicit table figures(): --list-figures, the report's contents and the smoke test over all figures come from it.
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
-#include <span>
 #include <variant>
 #include <vector>
 
@@ -25,7 +25,7 @@ struct CaseResult {
 /// A number that a paper states: a value, or a range.
 struct PublishedNumber {
   std::string id, source, quantity, unit;
-  double low = 0, high = 0;             ///< the same for a value
+  double low = 0, high = 0;  ///< the same for a value
 };
 
 struct StudyResult {
@@ -55,7 +55,7 @@ struct LegendEntry {
 /// A scene with what the page writes around it.
 struct Picture {
   render::Scene scene;
-  std::string label;                 ///< under the picture: "AR 2"
+  std::string label;  ///< under the picture: "AR 2"
   std::vector<LegendEntry> legend;
   bool scale_bar = true;
 };
@@ -63,23 +63,23 @@ struct Picture {
 /// One part of a figure: "a", "b", ... `id` is a suffix of the figure's id and names its files.
 struct Panel {
   std::string id;
-  std::string caption;               ///< one sentence
-  std::string alt;                   ///< what a reader who cannot see it must know, numbers included
+  std::string caption;  ///< one sentence
+  std::string alt;      ///< what a reader who cannot see it must know, numbers included
   std::variant<render::Chart, Picture, TextTable, std::string> content;  ///< std::string: a complete SVG drawing
-  int per_row = 0;                   ///< panels beside each other on the page; 0: chosen from the content
+  int per_row = 0;  ///< panels beside each other on the page; 0: chosen from the content
 };
 
 struct FigureContent {
   std::vector<Panel> panels;
-  std::string statement;             ///< what the paper says of this figure, in our words
-  std::string finding;               ///< what ours shows, with numbers from the records
+  std::string statement;  ///< what the paper says of this figure, in our words
+  std::string finding;    ///< what ours shows, with numbers from the records
 };
 
 struct Figure {
-  std::string_view id;               ///< "crack_maps"
+  std::string_view id;  ///< "crack_maps"
   std::string_view title;
-  std::string_view source;           ///< "Zhao et al. 2021, Fig. 15a"
-  std::string_view model;            ///< records it needs
+  std::string_view source;  ///< "Zhao et al. 2021, Fig. 15a"
+  std::string_view model;   ///< records it needs
   /// Scenarios that show it by default, by name; a scenario's key `figures` overrides.
   std::vector<std::string_view> scenarios;
   FigureContent (*make)(const StudyResult&);
@@ -89,6 +89,6 @@ struct Figure {
 /// rock nothing published stands beside its results.
 bool of_published_rock(const StudyResult& study);
 
-std::span<const Figure> figures();   ///< reports/figures/table.cpp
+std::span<const Figure> figures();  ///< reports/figures/table.cpp
 
 }  // namespace reports

@@ -32,7 +32,8 @@ double beta_fraction(double a, double b, double x) {
 double incomplete_beta(double a, double b, double x) {
   if (x <= 0) return 0;
   if (x >= 1) return 1;
-  const double front = std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) + b * std::log1p(-x));
+  const double front =
+      std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) + b * std::log1p(-x));
   if (x < (a + 1) / (a + b + 2)) return front * beta_fraction(a, b, x) / a;
   return 1 - front * beta_fraction(b, a, 1 - x) / b;
 }
@@ -53,8 +54,8 @@ Estimate fixed_value(double value) { return {value, value, value}; }
 /// sigma_1 = sigma_3 + sqrt(a sigma_3 + b): both envelopes, with a = m sigma_c and b = s sigma_c^2.
 struct Root {
   double a = 0, b = 0;
-  double variance = 0;                   ///< of a residual; 0 without freedom
-  double aa = 0, ab = 0, bb = 0;         ///< inverse of the normal matrix
+  double variance = 0;            ///< of a residual; 0 without freedom
+  double aa = 0, ab = 0, bb = 0;  ///< inverse of the normal matrix
   double freedom = 0;
 };
 
@@ -122,7 +123,8 @@ std::optional<Root> fit_root(std::span<const double> x, std::span<const double> 
   }
   const double determinant = now.aa * now.bb - now.ab * now.ab;
   if (!(determinant > 0)) return std::nullopt;
-  Root root{a, b, 0, now.bb / determinant, -now.ab / determinant, now.aa / determinant, static_cast<double>(x.size()) - 2};
+  Root root{
+      a, b, 0, now.bb / determinant, -now.ab / determinant, now.aa / determinant, static_cast<double>(x.size()) - 2};
   if (root.freedom > 0) root.variance = now.squares / root.freedom;
   return root;
 }
@@ -174,7 +176,10 @@ std::optional<LineFit> fit_line(std::span<const double> x, std::span<const doubl
   const double slope_error = deviation / std::sqrt(xx);
   fit.slope = with_error(slope, slope_error, freedom);
   fit.intercept = with_error(intercept, deviation * std::sqrt(1 / n + mean_x * mean_x / xx), freedom);
-  fit.p_value = freedom < 1 ? none : slope_error > 0 ? student_two_sided(slope / slope_error, freedom) : slope == 0 ? 1 : 0;
+  fit.p_value = freedom < 1       ? none
+                : slope_error > 0 ? student_two_sided(slope / slope_error, freedom)
+                : slope == 0      ? 1
+                                  : 0;
   return fit;
 }
 
@@ -192,8 +197,10 @@ std::optional<EnvelopeFit> fit_peak_envelope(std::span<const double> sigma_3, st
                      fixed_value(1), sigma_3.size()};
 }
 
-std::optional<EnvelopeFit> fit_peak_m(std::span<const double> sigma_3, std::span<const double> sigma_1, double sigma_c) {
-  if (sigma_3.size() < 2 || sigma_3.size() != sigma_1.size() || !two_places(sigma_3) || !(sigma_c > 0)) return std::nullopt;
+std::optional<EnvelopeFit> fit_peak_m(std::span<const double> sigma_3, std::span<const double> sigma_1,
+                                      double sigma_c) {
+  if (sigma_3.size() < 2 || sigma_3.size() != sigma_1.size() || !two_places(sigma_3) || !(sigma_c > 0))
+    return std::nullopt;
   for (std::size_t i = 0; i < sigma_3.size(); ++i) {
     if (!std::isfinite(sigma_3[i]) || !std::isfinite(sigma_1[i])) return std::nullopt;
   }
@@ -219,7 +226,8 @@ std::optional<EnvelopeFit> fit_peak_m(std::span<const double> sigma_3, std::span
   return EnvelopeFit{fixed_value(sigma_c), with_error(a / sigma_c, error, freedom), fixed_value(1), sigma_3.size()};
 }
 
-std::optional<EnvelopeFit> fit_damage_envelope(std::span<const double> sigma_3, std::span<const double> sigma_1, double sigma_c) {
+std::optional<EnvelopeFit> fit_damage_envelope(std::span<const double> sigma_3, std::span<const double> sigma_1,
+                                               double sigma_c) {
   const auto root = fit_root(sigma_3, sigma_1);
   if (!root || !(sigma_c > 0)) return std::nullopt;
   const double square = sigma_c * sigma_c;

@@ -16,7 +16,7 @@ struct Estimate {
 
 struct LineFit {
   Estimate intercept, slope;
-  double p_value = 0;              ///< of the slope against none, two-sided; NaN without an interval
+  double p_value = 0;  ///< of the slope against none, two-sided; NaN without an interval
   std::size_t points = 0;
   [[nodiscard]] double at(double x) const { return intercept.value + slope.value * x; }
 };
@@ -25,7 +25,7 @@ struct LineFit {
 std::optional<LineFit> fit_line(std::span<const double> x, std::span<const double> y);
 
 struct EnvelopeFit {
-  Estimate sigma_c, m, s;          ///< what was fixed has itself for an interval
+  Estimate sigma_c, m, s;  ///< what was fixed has itself for an interval
   std::size_t points = 0;
   [[nodiscard]] double at(double sigma_3) const;
 };
@@ -37,7 +37,8 @@ std::optional<EnvelopeFit> fit_peak_envelope(std::span<const double> sigma_3, st
 /// m alone, with s = 1 and sigma_c given: the uniaxial strength, as the text after Eq. 10 has it.
 std::optional<EnvelopeFit> fit_peak_m(std::span<const double> sigma_3, std::span<const double> sigma_1, double sigma_c);
 /// m and s, with sigma_c given: crack damage below the envelope of the peak.
-std::optional<EnvelopeFit> fit_damage_envelope(std::span<const double> sigma_3, std::span<const double> sigma_1, double sigma_c);
+std::optional<EnvelopeFit> fit_damage_envelope(std::span<const double> sigma_3, std::span<const double> sigma_1,
+                                               double sigma_c);
 
 /// Probability that |t| is larger, and the |t| that is exceeded with a probability.
 double student_two_sided(double t, double freedom);

@@ -9,14 +9,15 @@ namespace reports {
 namespace {
 
 std::string label_of(const std::string& column) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> known{{{"work", "Work of the platens"},
-                                                                               {"elastic", "Elastic"},
-                                                                               {"kinetic", "Kinetic"},
-                                                                               {"damping", "Damping"},
-                                                                               {"friction", "Friction"},
-                                                                               {"bond_tension", "Bonds broken in tension"},
-                                                                               {"bond_shear", "Bonds broken in shear"},
-                                                                               {"residual", "Residual"}}};
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> known{
+      {{"work", "Work of the platens"},
+       {"elastic", "Elastic"},
+       {"kinetic", "Kinetic"},
+       {"damping", "Damping"},
+       {"friction", "Friction"},
+       {"bond_tension", "Bonds broken in tension"},
+       {"bond_shear", "Bonds broken in shear"},
+       {"residual", "Residual"}}};
   const auto found = std::ranges::find(known, column, [](const auto& item) { return item.first; });
   if (found != known.end()) return std::string(found->second);
   std::string text = words(column);

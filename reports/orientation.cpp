@@ -17,8 +17,8 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr int parts = 4;  // of a band's thickness: bands are tried at every part
 
 // Weights by their distance along a normal, in bins from `low`.
-std::vector<double> binned(std::span<const double> point, std::span<const double> weight, const std::array<double, 3>& normal,
-                           double low, double width, std::size_t bins) {
+std::vector<double> binned(std::span<const double> point, std::span<const double> weight,
+                           const std::array<double, 3>& normal, double low, double width, std::size_t bins) {
   std::vector<double> sums(bins, 0.0);
   for (std::size_t i = 0; i < weight.size(); ++i) {
     const double d = normal[0] * point[3 * i] + normal[1] * point[3 * i + 1] + normal[2] * point[3 * i + 2];
@@ -87,8 +87,8 @@ BandFit densest_band(std::span<const double> crack, std::span<const double> area
   return best;
 }
 
-double excess_at_random(std::span<const std::int32_t> contact, std::span<const double> area, std::span<const double> particle,
-                        std::span<const double> volume, double thickness, int draws) {
+double excess_at_random(std::span<const std::int32_t> contact, std::span<const double> area,
+                        std::span<const double> particle, std::span<const double> volume, double thickness, int draws) {
   std::map<std::int32_t, double> broken;  // area, by contact
   for (std::size_t i = 0; i < area.size(); ++i) broken[contact[i]] += area[i];
   if (broken.empty() || volume.empty()) return none;

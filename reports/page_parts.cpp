@@ -71,8 +71,9 @@ std::vector<std::pair<std::string, std::vector<const CaseResult*>>> by_test(cons
 using Repeats = std::vector<const CaseResult*>;
 
 bool alike_but_for_seed(const dem::Record& a, const dem::Record& b) {
-  return std::ranges::equal(a.parameters, b.parameters,
-                            [](const auto& x, const auto& y) { return x == y || (x.first == "seed" && y.first == "seed"); });
+  return std::ranges::equal(a.parameters, b.parameters, [](const auto& x, const auto& y) {
+    return x == y || (x.first == "seed" && y.first == "seed");
+  });
 }
 
 std::vector<Repeats> columns_of(const std::vector<const CaseResult*>& group) {
@@ -81,8 +82,10 @@ std::vector<Repeats> columns_of(const std::vector<const CaseResult*>& group) {
     const auto same = std::ranges::find_if(columns, [&](const Repeats& c) {
       return result->record && c.front()->record && alike_but_for_seed(*c.front()->record, *result->record);
     });
-    if (same == columns.end()) columns.push_back({result});
-    else same->push_back(result);
+    if (same == columns.end())
+      columns.push_back({result});
+    else
+      same->push_back(result);
   }
   return columns;
 }
@@ -136,7 +139,8 @@ std::string computed_text(const Comparison& row) {
   std::size_t digits = 3;
   if (const auto* published = std::get_if<double>(&row.published)) {
     const std::string text = shortest(*published);
-    const auto figures = static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return c >= '0' && c <= '9'; }));
+    const auto figures =
+        static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return c >= '0' && c <= '9'; }));
     if (std::abs(*published) >= 1) digits = std::max(digits, figures);
   }
   return number(std::get<double>(*row.computed), static_cast<int>(digits)) + (row.unit.empty() ? "" : " " + row.unit);
@@ -172,7 +176,8 @@ PageData legend_data(const std::vector<LegendEntry>& entries) {
   for (const LegendEntry& entry : entries) {
     PageData item;
     item.set("colour", colour_code(entry.colour));
-    item.set("text", entry.text.empty() || entry.count.empty() ? entry.text + entry.count : entry.text + ": " + entry.count);
+    item.set("text",
+             entry.text.empty() || entry.count.empty() ? entry.text + entry.count : entry.text + ": " + entry.count);
     legend.push_back(item);
   }
   return legend;
@@ -194,7 +199,8 @@ Shared shared_by(std::span<const DrawnPanel> row) {
   const DrawnPanel& first = row.front();
   return {!first.caption.empty() &&
               std::ranges::all_of(row, [&](const auto& p) { return p.caption == first.caption && !p.label.empty(); }),
-          !first.legend.empty() && std::ranges::all_of(row, [&](const auto& p) { return same_key(p.legend, first.legend); })};
+          !first.legend.empty() &&
+              std::ranges::all_of(row, [&](const auto& p) { return same_key(p.legend, first.legend); })};
 }
 
 // The counts alone, once the row says what the colours mean.
@@ -255,7 +261,9 @@ PageData rows_data(const std::vector<DrawnPanel>& panels, const std::filesystem:
   for (std::size_t i = 0; i < panels.size();) {
     const int per_row = std::max(1, panels[i].per_row);
     std::size_t end = i;
-    while (end < panels.size() && end - i < static_cast<std::size_t>(per_row) && std::max(1, panels[end].per_row) == per_row) ++end;
+    while (end < panels.size() && end - i < static_cast<std::size_t>(per_row) &&
+           std::max(1, panels[end].per_row) == per_row)
+      ++end;
     const std::span<const DrawnPanel> members(&panels[i], end - i);
     const Shared shared = shared_by(members);
     PageData list = new_list();
@@ -446,8 +454,8 @@ PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
     std::vector<std::string> parts;
     for (const auto& [check, cases] : broken) parts.push_back(words(check) + " (" + joined(cases, ", ") + ")");
     add(fmt::format("{} of {} checks did not hold: {}.", broken_checks, checks, joined(parts, "; ")), "bad");
-  }
-  else if (checks > 0) add(fmt::format("All {} checks of the runs held.", checks), "good");
+  } else if (checks > 0)
+    add(fmt::format("All {} checks of the runs held.", checks), "good");
   const auto number_of = [&](Verdict verdict) {
     return std::ranges::count(comparisons.rows, verdict, &Comparison::verdict);
   };
@@ -457,9 +465,10 @@ PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
       if (row.verdict != Verdict::missed) continue;
       missed.push_back(row.quantity + (row.deviation ? " (" + deviation_text(row) + ")" : ""));
     }
-    std::string text = fmt::format("{} of {} published numbers and trends are met", number_of(Verdict::met),
-                                   comparisons.rows.size());
-    if (number_of(Verdict::not_computed) > 0) text += fmt::format(", {} could not be computed", number_of(Verdict::not_computed));
+    std::string text =
+        fmt::format("{} of {} published numbers and trends are met", number_of(Verdict::met), comparisons.rows.size());
+    if (number_of(Verdict::not_computed) > 0)
+      text += fmt::format(", {} could not be computed", number_of(Verdict::not_computed));
     constexpr std::size_t named = 6;
     if (!missed.empty()) {
       const std::size_t others = missed.size() > named ? missed.size() - named : 0;

@@ -14,11 +14,11 @@ namespace reports {
 
 using PageData = kainjow::mustache::data;
 
-PageData title_data(const StudyResult& study, const ReportOptions& options);      ///< title block
-PageData cases_data(const StudyResult& study);                                    ///< what was run
+PageData title_data(const StudyResult& study, const ReportOptions& options);  ///< title block
+PageData cases_data(const StudyResult& study);                                ///< what was run
 PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
-                       const std::vector<DrawnFigure>& figures);                  ///< what came out, in short
-PageData results_data(const StudyResult& study);                                  ///< a table of results for each test
+                       const std::vector<DrawnFigure>& figures);  ///< what came out, in short
+PageData results_data(const StudyResult& study);                  ///< a table of results for each test
 PageData comparisons_data(const Comparisons& comparisons);
 /// Pictures are read from `folder` and embedded; named when it is empty.
 PageData figures_data(const std::vector<DrawnFigure>& figures, const std::filesystem::path& folder);

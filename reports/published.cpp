@@ -37,8 +37,10 @@ std::string case_id(const Json& term, const Place& at) {
   std::string id = term.at("case").get<std::string>();
   const std::size_t confined = id.find(pressure);
   const std::size_t place = id.find("{}");
-  if (confined != std::string::npos && at.step == "0") id.erase(confined, pressure.size());
-  else if (place != std::string::npos) id.replace(place, 2, at.step);
+  if (confined != std::string::npos && at.step == "0")
+    id.erase(confined, pressure.size());
+  else if (place != std::string::npos)
+    id.replace(place, 2, at.step);
   return id + at.repeat;
 }
 
@@ -142,8 +144,9 @@ void compare_value(const StudyResult& study, const Json& entry, Comparison& row)
   if (term.contains("fit")) {
     const Estimate estimate = fitted(study, term);
     ours = estimate.value * term.value("times", 1.0);
-    row.detail = estimate.has_interval() ? fmt::format("95 % interval {} to {}", number(estimate.low), number(estimate.high))
-                                         : "as many points as unknowns: no interval";
+    row.detail = estimate.has_interval()
+                     ? fmt::format("95 % interval {} to {}", number(estimate.low), number(estimate.high))
+                     : "as many points as unknowns: no interval";
   } else {
     const auto values = with_repeats(study, term, {});
     ours = mean(values);
@@ -186,7 +189,8 @@ void compare_trend(const StudyResult& study, const Json& entry, Comparison& row)
     }
   }
   if (ours.size() < 2) {
-    throw NotComputed{absent.empty() ? "a trend needs two cases" : "no cases at " + listed(absent) + " in this scenario"};
+    throw NotComputed{absent.empty() ? "a trend needs two cases"
+                                     : "no cases at " + listed(absent) + " in this scenario"};
   }
   const auto line = fit_line(x, y);
   if (!line) throw NotComputed{"a trend needs two different steps"};
@@ -198,8 +202,8 @@ void compare_trend(const StudyResult& study, const Json& entry, Comparison& row)
   row.detail = joined(shown, " → ") + (steady ? "" : ", not at every step");
   if (!absent.empty()) row.detail += "; not run: " + joined(absent, ", ");
   if (line->slope.has_interval()) {
-    row.detail += fmt::format("; slope {} (95 % interval {} to {}, p = {})", number(slope, 2), number(line->slope.low, 2),
-                              number(line->slope.high, 2), number(line->p_value, 2));
+    row.detail += fmt::format("; slope {} (95 % interval {} to {}, p = {})", number(slope, 2),
+                              number(line->slope.low, 2), number(line->slope.high, 2), number(line->p_value, 2));
   }
   row.by_interval = x.size() > ours.size() && line->slope.has_interval();
   if (row.by_interval && line->slope.low <= 0 && line->slope.high >= 0) row.computed = std::string("lost in scatter");
@@ -224,15 +228,18 @@ Comparison described(const Json& entry) {
   row.kind = entry.at("kind").get<std::string>();
   if (row.kind == "value") {
     const Json& published = entry.at("published");
-    if (published.is_array()) row.published = std::pair(published.at(0).get<double>(), published.at(1).get<double>());
-    else row.published = published.get<double>();
+    if (published.is_array())
+      row.published = std::pair(published.at(0).get<double>(), published.at(1).get<double>());
+    else
+      row.published = published.get<double>();
     const Json& tolerance = entry.at("tolerance");
     row.relative = tolerance.contains("relative");
     row.tolerance = tolerance.at(row.relative ? "relative" : "absolute").get<double>();
   } else {
     row.published = row.kind == "trend" ? entry.at("published").get<std::string>() : "greater";
     std::vector<std::string> values;
-    for (const Json& value : entry.value("published_values", Json::array())) values.push_back(shortest(value.get<double>()));
+    for (const Json& value : entry.value("published_values", Json::array()))
+      values.push_back(shortest(value.get<double>()));
     row.published_detail = joined(values, " → ");
   }
   return row;
@@ -249,10 +256,14 @@ void compare_entry(const StudyResult& study, const Json& entry, std::vector<Comp
   if (optional_and_absent(study, entry)) return;
   Comparison row = described(entry);
   try {
-    if (row.kind == "value") compare_value(study, entry, row);
-    else if (row.kind == "trend") compare_trend(study, entry, row);
-    else if (row.kind == "greater") compare_greater(study, entry, row);
-    else throw dem::EnvironmentError("unknown kind '" + row.kind + "' of published number " + row.id);
+    if (row.kind == "value")
+      compare_value(study, entry, row);
+    else if (row.kind == "trend")
+      compare_trend(study, entry, row);
+    else if (row.kind == "greater")
+      compare_greater(study, entry, row);
+    else
+      throw dem::EnvironmentError("unknown kind '" + row.kind + "' of published number " + row.id);
   } catch (const NotComputed& reason) {
     row.detail = reason.why;
   }
@@ -285,9 +296,12 @@ void read_papers(const StudyResult& study, const std::filesystem::path& folder, 
 
 std::string_view verdict_word(Verdict verdict) {
   switch (verdict) {
-    case Verdict::met: return "met";
-    case Verdict::missed: return "missed";
-    case Verdict::not_computed: break;
+    case Verdict::met:
+      return "met";
+    case Verdict::missed:
+      return "missed";
+    case Verdict::not_computed:
+      break;
   }
   return "not computed";
 }
@@ -304,7 +318,8 @@ Comparisons compare(const StudyResult& study, const std::filesystem::path& publi
   return all;
 }
 
-std::vector<PublishedNumber> published_numbers(const StudyResult& study, const std::filesystem::path& published_folder) {
+std::vector<PublishedNumber> published_numbers(const StudyResult& study,
+                                               const std::filesystem::path& published_folder) {
   std::vector<PublishedNumber> all;
   read_papers(study, published_folder, [&](const Json& paper) {
     const auto add = [&](const Json& entry) {
@@ -312,7 +327,8 @@ std::vector<PublishedNumber> published_numbers(const StudyResult& study, const s
       const bool range = published.is_array();
       all.push_back({entry.at("id").get<std::string>(), entry.at("source").get<std::string>(),
                      entry.at("quantity").get<std::string>(), entry.value("unit", ""),
-                     (range ? published.at(0) : published).get<double>(), (range ? published.at(1) : published).get<double>()});
+                     (range ? published.at(0) : published).get<double>(),
+                     (range ? published.at(1) : published).get<double>()});
     };
     for (const Json& entry : paper.at("numbers")) {
       if (entry.at("kind").get<std::string>() == "value") add(entry);

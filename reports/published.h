@@ -35,18 +35,18 @@ struct Comparison {
   std::string id, source, quantity, unit, statement, kind;
   Amount published;
   std::optional<Amount> computed;
-  std::optional<double> deviation;   ///< relative, or absolute in `unit`; from the nearer end of a range
+  std::optional<double> deviation;  ///< relative, or absolute in `unit`; from the nearer end of a range
   std::optional<double> tolerance;
-  bool by_interval = false;          ///< a trend over several seeds: it must stand out of their scatter
-  bool relative = false;             ///< deviation and tolerance are fractions of the published value
+  bool by_interval = false;  ///< a trend over several seeds: it must stand out of their scatter
+  bool relative = false;     ///< deviation and tolerance are fractions of the published value
   Verdict verdict = Verdict::not_computed;
-  std::string published_detail;      ///< the published values that make a trend: "206.8 → 201.3 → 198.4"
-  std::string detail;                ///< what trends are made of, or why nothing could be computed
+  std::string published_detail;  ///< the published values that make a trend: "206.8 → 201.3 → 198.4"
+  std::string detail;            ///< what trends are made of, or why nothing could be computed
 };
 
 struct Comparisons {
-  std::string paper;                 ///< "Zhao et al. 2021"; several joined
-  std::string scale;                 ///< at which the published numbers belong
+  std::string paper;  ///< "Zhao et al. 2021"; several joined
+  std::string scale;  ///< at which the published numbers belong
   std::vector<Comparison> rows;
 };
 

@@ -55,8 +55,7 @@ ReportOutcome make_report(StudyResult study, const ReportOptions& options, const
   }
   RunFacts facts = run;
   facts.emplace_back("gl_renderer", drawings.gl_renderer);
-  facts.emplace_back("report_seconds",
-                     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  facts.emplace_back("report_seconds", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   dem::write_file(options.folder / "run.json", run_json(facts));
   return outcome;
 }

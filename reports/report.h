@@ -31,8 +31,8 @@ struct ReportOptions {
 using RunFacts = std::vector<std::pair<std::string, std::variant<double, std::string>>>;
 
 struct ReportOutcome {
-  bool checks_held = true;         ///< every case has a record and every check of every case held
-  bool published_all_met = true;   ///< no comparison was missed (those that could not be made do not count)
+  bool checks_held = true;                   ///< every case has a record and every check of every case held
+  bool published_all_met = true;             ///< no comparison was missed (those that could not be made do not count)
   std::vector<std::filesystem::path> files;  ///< the pages: report.html, report.pdf, summary.json
 };
 

@@ -10,8 +10,10 @@ using Json = nlohmann::ordered_json;
 
 void put(Json& object, std::string_view name, Json value) {
   const std::size_t dot = name.find('.');
-  if (dot == std::string_view::npos) object[std::string(name)] = std::move(value);
-  else put(object[std::string(name.substr(0, dot))], name.substr(dot + 1), std::move(value));
+  if (dot == std::string_view::npos)
+    object[std::string(name)] = std::move(value);
+  else
+    put(object[std::string(name.substr(0, dot))], name.substr(dot + 1), std::move(value));
 }
 
 // Counts are written as whole numbers.
@@ -67,12 +69,8 @@ Json comparison_json(const Comparison& row) {
 
 std::string summary_json(const StudyResult& study, const Comparisons& comparisons,
                          const std::vector<DrawnFigure>& figures) {
-  Json json{{"scenario", study.scenario->name()},
-            {"scale", study.scenario->scale()},
-            {"cases", Json::array()},
-            {"comparisons", Json::array()},
-            {"checks", Json::array()},
-            {"figures", Json::array()}};
+  Json json{{"scenario", study.scenario->name()}, {"scale", study.scenario->scale()}, {"cases", Json::array()},
+            {"comparisons", Json::array()},       {"checks", Json::array()},          {"figures", Json::array()}};
   for (const CaseResult& result : study.cases) {
     json["cases"].push_back(case_json(result));
     if (!result.record) continue;

@@ -49,8 +49,7 @@ constexpr std::array named{
     Named{"crack_initiation_MPa.axial_stiffness", "Crack initiation stress, by axial stiffness", "MPa"},
     Named{"crack_initiation_MPa.strain_0_1_percent", "Stress at 0.1 % axial strain", "MPa"},
     Named{"crack_initiation_MPa.one_percent_of_cracks", "Crack initiation stress, 1 % of cracks at the peak", "MPa"},
-    Named{"crack_initiation_MPa.crack_volumetric_strain", "Crack initiation stress, by crack volumetric strain",
-          "MPa"},
+    Named{"crack_initiation_MPa.crack_volumetric_strain", "Crack initiation stress, by crack volumetric strain", "MPa"},
     Named{"crack_damage_MPa", "Crack damage stress", "MPa"},
     Named{"crack_damage_strain", "Strain at crack damage", ""},
     Named{"inter_grain_share", "Inter-grain share of contacts", ""},
@@ -89,9 +88,7 @@ std::string fixed(double value, int places) {
 
 std::string percent(double fraction, int places) { return fixed(100 * fraction, places) + " %"; }
 
-std::string with_sign(std::string text) {
-  return text.starts_with(minus_sign) ? text : "+" + text;
-}
+std::string with_sign(std::string text) { return text.starts_with(minus_sign) ? text : "+" + text; }
 
 std::string shortest(double value) { return dressed(fmt::format("{:.9g}", value)); }
 
@@ -126,7 +123,8 @@ std::pair<std::string, std::string> result_name(std::string_view key) {
     unit = text.substr(last + 1);
     text.resize(last);
   }
-  for (std::size_t dot = text.find('.'); dot != std::string::npos; dot = text.find('.', dot)) text.replace(dot, 1, ", ");
+  for (std::size_t dot = text.find('.'); dot != std::string::npos; dot = text.find('.', dot))
+    text.replace(dot, 1, ", ");
   text = words(text);
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
   return {text, unit};

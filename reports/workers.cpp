@@ -23,8 +23,8 @@ enum class Ending { none, environment, other };
 
 /// What parent and children share beside the results.
 struct Board {
-  std::atomic<std::size_t> next{0};        // piece to take
-  std::atomic<bool> failed{false};         // taken by the first child that fails: the message is its own
+  std::atomic<std::size_t> next{0};  // piece to take
+  std::atomic<bool> failed{false};   // taken by the first child that fails: the message is its own
   Ending ending = Ending::none;
   std::array<char, 2048> message{};
 };

@@ -18,7 +18,9 @@ class InputError : public std::runtime_error {
  public:
   InputError(Location where, std::string key, const std::string& wrong, std::string right)
       : std::runtime_error(compose(where, key, wrong, right)),
-        where_(std::move(where)), key_(std::move(key)), right_(std::move(right)) {}
+        where_(std::move(where)),
+        key_(std::move(key)),
+        right_(std::move(right)) {}
   explicit InputError(const std::string& wrong, std::string right = {})
       : InputError(Location{}, {}, wrong, std::move(right)) {}
 

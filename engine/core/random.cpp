@@ -23,9 +23,9 @@ RandomStream::RandomStream(std::uint64_t seed, Purpose purpose, std::uint32_t su
 std::uint64_t RandomStream::bits() {
   // Two 64-bit numbers come out of one block; index / 2 is the block, index % 2 the half.
   const std::uint64_t block = index_ / 2;
-  const auto words = philox({static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(block >> 32),
-                             purpose_, substream_},
-                            {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)});
+  const auto words =
+      philox({static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(block >> 32), purpose_, substream_},
+             {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)});
   const bool second = index_++ % 2 == 1;
   return second ? (std::uint64_t{words[3]} << 32 | words[2]) : (std::uint64_t{words[1]} << 32 | words[0]);
 }

@@ -23,11 +23,11 @@ enum class Purpose : std::uint32_t {
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, Purpose purpose, std::uint32_t substream = 0);
-  std::uint64_t bits();                        ///< 64 random bits
-  double uniform();                            ///< [0, 1), 53 bits
-  double uniform(double low, double high);     ///< [low, high)
-  double normal();                             ///< mean 0, standard deviation 1 (Box-Muller, no caching)
-  std::uint64_t below(std::uint64_t n);        ///< 0 ... n-1, unbiased
+  std::uint64_t bits();                     ///< 64 random bits
+  double uniform();                         ///< [0, 1), 53 bits
+  double uniform(double low, double high);  ///< [low, high)
+  double normal();                          ///< mean 0, standard deviation 1 (Box-Muller, no caching)
+  std::uint64_t below(std::uint64_t n);     ///< 0 ... n-1, unbiased
 
  private:
   std::uint64_t seed_;

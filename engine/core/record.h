@@ -37,7 +37,7 @@ struct Table {
 
 /// Something that must hold in any run: |value| <= limit.
 struct Check {
-  std::string id;       ///< "energy_residual", "equilibrium", "servo"
+  std::string id;  ///< "energy_residual", "equilibrium", "servo"
   double value = 0;
   double limit = 0;
   bool held = false;
@@ -46,10 +46,10 @@ struct Check {
 
 /// What a case leaves behind.
 struct Record {
-  std::string model;            ///< "grain_texture", "lattice", "sheet"
-  std::string scenario;         ///< name of the scenario (file stem)
-  std::string case_id;          ///< "compression_ar_2"
-  std::string content;          ///< canonical text of everything the result depends on (resolved keys, seed, physics version)
+  std::string model;     ///< "grain_texture", "lattice", "sheet"
+  std::string scenario;  ///< name of the scenario (file stem)
+  std::string case_id;   ///< "compression_ar_2"
+  std::string content;   ///< canonical text of everything the result depends on (resolved keys, seed, physics version)
   std::string physics_version;  ///< of the model's engine
   std::uint64_t seed = 0;
   /// What sets this case apart: {"test", "compression"}, {"aspect_ratio", 2.0}.
@@ -60,8 +60,8 @@ struct Record {
   std::vector<std::string> notes;  ///< what a reader must know about this run, a sentence each
   std::vector<Table> tables;
 
-  [[nodiscard]] const Table* find(std::string_view table) const;  ///< nullptr when absent
-  [[nodiscard]] const Table& table(std::string_view table) const; ///< throws std::out_of_range naming it
+  [[nodiscard]] const Table* find(std::string_view table) const;   ///< nullptr when absent
+  [[nodiscard]] const Table& table(std::string_view table) const;  ///< throws std::out_of_range naming it
   [[nodiscard]] bool has_result(std::string_view name) const;
   [[nodiscard]] double result(std::string_view name) const;       ///< throws std::out_of_range naming it
   [[nodiscard]] double number(std::string_view parameter) const;  ///< a numeric parameter; throws as above

@@ -30,14 +30,14 @@ enum class KeyType { boolean, integer, real, text, integers, reals, texts };
 
 /// The declaration of one key.
 struct Key {
-  std::string path = {};                   ///< "specimen.diameter", "mineral[].share", "sweep.aspect_ratio"
+  std::string path = {};  ///< "specimen.diameter", "mineral[].share", "sweep.aspect_ratio"
   KeyType type = KeyType::real;
-  std::string unit = {};                   ///< unit in which range, default and help are written ("mm", "GPa", "%", "deg"); "" : none
-  double low = -std::numeric_limits<double>::infinity();   ///< inclusive, in `unit`; for lists: of each element
+  std::string unit = {};  ///< unit in which range, default and help are written ("mm", "GPa", "%", "deg"); "" : none
+  double low = -std::numeric_limits<double>::infinity();  ///< inclusive, in `unit`; for lists: of each element
   double high = std::numeric_limits<double>::infinity();
-  std::vector<std::string> choices = {};   ///< for text(s): the allowed words; empty: any
-  std::string standard = {};               ///< the default as TOML text ("\"0.35 mm\"", "1.66", "[1]"); "" : the key is required
-  std::string help = {};                   ///< one line, with the symbol and source where there is one
+  std::vector<std::string> choices = {};  ///< for text(s): the allowed words; empty: any
+  std::string standard = {};  ///< the default as TOML text ("\"0.35 mm\"", "1.66", "[1]"); "" : the key is required
+  std::string help = {};      ///< one line, with the symbol and source where there is one
 };
 
 /// A value in SI units.
@@ -53,7 +53,7 @@ class Scenario {
   static Scenario read(const std::string& file, std::string_view scale, std::span<const std::string> overrides,
                        const std::function<std::span<const Key>(std::string_view model)>& keys_of);
 
-  [[nodiscard]] const std::string& name() const { return name_; }    ///< file stem
+  [[nodiscard]] const std::string& name() const { return name_; }  ///< file stem
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] const std::string& included() const { return included_; }  ///< file of its key `include`; "": none
   [[nodiscard]] const std::string& scale() const { return scale_; }
@@ -63,14 +63,14 @@ class Scenario {
   // Values in SI units. A path that was not declared, or another type: std::logic_error (our defect, not the user's).
   [[nodiscard]] bool boolean(std::string_view path) const;
   [[nodiscard]] std::int64_t integer(std::string_view path) const;
-  [[nodiscard]] double real(std::string_view path) const;            ///< integers convert
+  [[nodiscard]] double real(std::string_view path) const;  ///< integers convert
   [[nodiscard]] const std::string& text(std::string_view path) const;
   [[nodiscard]] const std::vector<std::int64_t>& integers(std::string_view path) const;
   [[nodiscard]] const std::vector<double>& reals(std::string_view path) const;
   [[nodiscard]] const std::vector<std::string>& texts(std::string_view path) const;
   /// Entries of a list of tables: count("mineral") is 4; then real("mineral[0].share").
   [[nodiscard]] std::size_t count(std::string_view list) const;
-  [[nodiscard]] bool given(std::string_view path) const;             ///< written by the user (file, scale or --set)
+  [[nodiscard]] bool given(std::string_view path) const;  ///< written by the user (file, scale or --set)
 
   /// A copy with one value replaced (SI), for the cases of a sweep.
   [[nodiscard]] Scenario with(std::string_view path, Value value) const;

@@ -16,22 +16,23 @@ namespace dem {
 
 /// What a running case tells about itself now and then; values in SI units, NaN where they do not apply.
 struct Progress {
-  std::string stage;       ///< "packing", "loading"
+  std::string stage;  ///< "packing", "loading"
   std::int64_t step = 0;
-  double fraction = 0;     ///< 0 ... 1, an estimate of what is done
-  double strain = 0;       ///< axial, in the sense of the test
-  double stress = 0;       ///< Pa, in the sense of the test
+  double fraction = 0;  ///< 0 ... 1, an estimate of what is done
+  double strain = 0;    ///< axial, in the sense of the test
+  double stress = 0;    ///< Pa, in the sense of the test
 };
 
 /// What the runner lends to a case. Nothing here may change the result. Cases run side by side, each in a thread of its own:
 /// they share nothing but the folder of specimens.
 struct RunContext {
-  int threads = 1;                    ///< at the beginning of the case
-  const std::atomic<int>* lent = nullptr;  ///< threads by now: grows when other cases have ended and none waits; none: as at first
-  std::filesystem::path specimens;    ///< folder for generated specimens, kept by content
-  Turns* turns = nullptr;             ///< to be taken by path while a specimen is looked for and made; none: alone
-  std::filesystem::path checkpoint;   ///< file for the state of a cut case; the case writes it aside, then renames it
-  double checkpoint_seconds = 120;    ///< wall time between checkpoints
+  int threads = 1;  ///< at the beginning of the case
+  const std::atomic<int>* lent =
+      nullptr;  ///< threads by now: grows when other cases have ended and none waits; none: as at first
+  std::filesystem::path specimens;   ///< folder for generated specimens, kept by content
+  Turns* turns = nullptr;            ///< to be taken by path while a specimen is looked for and made; none: alone
+  std::filesystem::path checkpoint;  ///< file for the state of a cut case; the case writes it aside, then renames it
+  double checkpoint_seconds = 120;   ///< wall time between checkpoints
   std::function<bool()> stopped = [] { return false; };  ///< asked for: write the checkpoint and throw Interrupted
   std::function<void(const Progress&)> report = [](const Progress&) {};
 
@@ -44,17 +45,17 @@ struct Interrupted {};
 
 /// One specimen in one test.
 struct CaseSpec {
-  std::string id;        ///< "compression_ar_2"
-  Scenario scenario;     ///< resolved, with the swept values of this case put in
-  std::string content;   ///< canonical text of everything the result depends on, seed and physics version included
+  std::string id;       ///< "compression_ar_2"
+  Scenario scenario;    ///< resolved, with the swept values of this case put in
+  std::string content;  ///< canonical text of everything the result depends on, seed and physics version included
   std::vector<std::pair<std::string, std::variant<double, std::string>>> parameters;
 };
 
 /// One model of the program; see models().
 struct Model {
-  std::string_view name;              ///< the scenario's `model`
-  std::string_view physics_version;   ///< raised whenever results change; part of every content key
-  std::span<const Key> (*keys)();     ///< its scenario keys
+  std::string_view name;             ///< the scenario's `model`
+  std::string_view physics_version;  ///< raised whenever results change; part of every content key
+  std::span<const Key> (*keys)();    ///< its scenario keys
   /// The cases of a scenario, in report order. Throws InputError for values that are wrong together.
   std::vector<CaseSpec> (*cases)(const Scenario&);
   /// Simulates a case. Throws CaseError when it fails, Interrupted when stopped.

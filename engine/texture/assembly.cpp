@@ -43,8 +43,9 @@ void Assembly::add(std::int32_t first, std::int32_t second, const Action<double>
 double Assembly::half_work(std::int32_t first, std::int32_t second, const Action<double>& a) const {
   const Row8& v1 = velocity_[static_cast<std::size_t>(first)];
   const Row8& v2 = velocity_[static_cast<std::size_t>(second)];
-  return 0.5 * dt_ * (dot(a.force, triple(v2, 0) - triple(v1, 0)) + dot(a.moment_1, triple(v1, 1)) +
-                      dot(a.moment_2, triple(v2, 1)));
+  return 0.5 * dt_ *
+         (dot(a.force, triple(v2, 0) - triple(v1, 0)) + dot(a.moment_1, triple(v1, 1)) +
+          dot(a.moment_2, triple(v2, 1)));
 }
 
 void Assembly::drive(double lower, double upper, std::int64_t ramp) {
@@ -124,7 +125,8 @@ void Assembly::forces(Block& block, std::int64_t step, bool look_for_contacts) {
     block.active.push_back(static_cast<std::int32_t>(k));
   }
   if (!block.active.empty()) {
-    kernels_->broken_joints(block.broken.data(), block.active.data(), static_cast<std::int32_t>(block.active.size()), loop);
+    kernels_->broken_joints(block.broken.data(), block.active.data(), static_cast<std::int32_t>(block.active.size()),
+                            loop);
     block.friction += loop.heat;
   } else {
     loop.flagged_count = 0;
@@ -215,7 +217,8 @@ void Assembly::roll(Block& block, PartlyBrokenJoint& joint, const Action<double>
   const Pose<double> one = pose(joint.first), two = pose(joint.second);
   const Motion<double> m = motion(one, two, joint.reference, joint.share_one, joint.reference_length);
   const double closed = std::min(m.gap, 0.0);
-  const Action<double> kept = action_at_contact(m, joint.share_one, (-joint.law.normal * closed) * m.n, Triple<double>{0, 0, 0});
+  const Action<double> kept =
+      action_at_contact(m, joint.share_one, (-joint.law.normal * closed) * m.n, Triple<double>{0, 0, 0});
   block.friction += stored(joint, one, two) - 0.5 * joint.law.normal * closed * closed +
                     half_work(joint.first, joint.second, action - kept);
   FreshContact contact;
@@ -271,7 +274,8 @@ void Assembly::joint_events(Block& block, std::int32_t count) {
     joint.reference = {get(F::dx), get(F::dy), get(F::dz)};
     joint.share_one = get(F::share_one);
     joint.reference_length = get(F::length);
-    joint.law = {get(F::normal), get(F::inverse_ratio), get(F::rho), get(F::opening), get(F::cohesion), get(F::tan_phi)};
+    joint.law = {get(F::normal),  get(F::inverse_ratio), get(F::rho),
+                 get(F::opening), get(F::cohesion),      get(F::tan_phi)};
     joint.friction = specs_[static_cast<std::size_t>(joint.contact)].group.friction;
     joint.zero_angle = any_perpendicular(joint.reference);
     const Pose<double> one = pose(joint.first), two = pose(joint.second);
@@ -302,18 +306,19 @@ void Assembly::bond_events(Block& block, std::int64_t step, std::int32_t count) 
     }
     const std::int32_t first = pack.first[lane], second = pack.second[lane];
     const Pose<double> one = pose(first), two = pose(second);
-    const ParallelBond<double> bond = {get(F::linear_normal), get(F::linear_inverse_ratio), get(F::friction),
-                                       get(F::normal), get(F::inverse_ratio), get(F::radius), get(F::opening),
-                                       get(F::cohesion), get(F::tan_phi)};
+    const ParallelBond<double> bond = {get(F::linear_normal), get(F::linear_inverse_ratio),
+                                       get(F::friction),      get(F::normal),
+                                       get(F::inverse_ratio), get(F::radius),
+                                       get(F::opening),       get(F::cohesion),
+                                       get(F::tan_phi)};
     const Motion<double> m = motion(one, two, {get(F::dx), get(F::dy), get(F::dz)}, get(F::share_one), get(F::length));
     const bool shear = !(m.gap > bond.opening);
     const Action<double> removed = action(m, stiffness(bond));
     add(first, second, Action<double>{} - removed);
     (shear ? block.bond_shear : block.bond_tension) += energy(m, stiffness(bond)) + half_work(first, second, removed);
     block.cracks.push_back({static_cast<double>(step), block.bond_contact[static_cast<std::size_t>(slot)],
-                            static_cast<std::int8_t>(shear), 1,
-                            array(one.x + (get(F::share_one) * m.length) * m.n), array(m.n),
-                            std::numbers::pi * bond.radius * bond.radius});
+                            static_cast<std::int8_t>(shear), 1, array(one.x + (get(F::share_one) * m.length) * m.n),
+                            array(m.n), std::numbers::pi * bond.radius * bond.radius});
     pack.field[F::normal][lane] = 0;
     pack.field[F::opening][lane] = huge;
     pack.field[F::cohesion][lane] = huge;
@@ -384,8 +389,16 @@ void Assembly::integrate(std::size_t slab) {
   SlabSums& sums = sums_[slab];
   const auto begin = static_cast<std::size_t>(slab_begin_[slab]), end = static_cast<std::size_t>(slab_begin_[slab + 1]);
   const double held_kinetic = held_.empty() ? 0.0 : hold(slab);
-  MotionLoop loop{pose_[begin].v, velocity_[begin].v, force_[begin].v, &inertia_[begin],
-                  static_cast<std::int64_t>(end - begin), dt_, damping_, 0, 0, 0};
+  MotionLoop loop{pose_[begin].v,
+                  velocity_[begin].v,
+                  force_[begin].v,
+                  &inertia_[begin],
+                  static_cast<std::int64_t>(end - begin),
+                  dt_,
+                  damping_,
+                  0,
+                  0,
+                  0};
   kernels_->integrate(loop);
   sums.late_damping = 0.5 * dt_ * loop.late_heat;
   sums.damping += 0.5 * dt_ * loop.heat;
@@ -474,7 +487,8 @@ Sample Assembly::advance(std::int64_t steps) {
     cracks_.insert(cracks_.end(), block.cracks.begin(), block.cracks.end());
     block.cracks.clear();
   }
-  std::stable_sort(cracks_.begin() + older, cracks_.end(), [](const Crack& a, const Crack& b) { return a.step < b.step; });
+  std::stable_sort(cracks_.begin() + older, cracks_.end(),
+                   [](const Crack& a, const Crack& b) { return a.step < b.step; });
   maintain();
   return sample;
 }
@@ -538,7 +552,8 @@ void Assembly::find_near_pairs() {
     for (std::size_t slot = 0; slot < block.bond_contact.size(); ++slot) {
       const ParallelBondPack& pack = block.bonds[slot / pack_width];
       const std::size_t lane = slot % pack_width;
-      if (pack.field[ParallelBondPack::linear_normal][lane] > 0) known.push_back(key(pack.first[lane], pack.second[lane]));
+      if (pack.field[ParallelBondPack::linear_normal][lane] > 0)
+        known.push_back(key(pack.first[lane], pack.second[lane]));
     }
     for (const PartlyBrokenJoint& joint : block.broken) known.push_back(key(joint.first, joint.second));
     for (const FreshContact& contact : block.fresh) known.push_back(key(contact.first, contact.second));
@@ -573,7 +588,8 @@ void Assembly::find_near_pairs() {
       for (std::int64_t dy = -1; dy <= 1; ++dy) {
         for (std::int64_t dx = -1; dx <= 1; ++dx) {
           const std::array<std::int64_t, 3> at = {c[0] + dx, c[1] + dy, c[2] + dz};
-          if (at[0] < 0 || at[1] < 0 || at[2] < 0 || at[0] >= cells[0] || at[1] >= cells[1] || at[2] >= cells[2]) continue;
+          if (at[0] < 0 || at[1] < 0 || at[2] < 0 || at[0] >= cells[0] || at[1] >= cells[1] || at[2] >= cells[2])
+            continue;
           for (std::int32_t j = head[flat(at)]; j >= 0; j = next[static_cast<std::size_t>(j)]) {
             if (static_cast<std::size_t>(j) <= i) continue;
             const Triple<double> d = triple(pose_[static_cast<std::size_t>(j)], 0) - triple(pose_[i], 0);
@@ -606,7 +622,8 @@ void Assembly::find_near_pairs() {
     auto& slab = jacket_contacts_[static_cast<std::size_t>(slab_[i])];
     const auto same = [&](const JacketContact& c) { return c.particle == static_cast<std::int32_t>(i); };
     if (std::any_of(slab.begin(), slab.end(), same)) continue;
-    slab.push_back({static_cast<std::int32_t>(i), 0, wall_modulus_[static_cast<std::size_t>(mineral_[i])] * std::numbers::pi * pose_[i].v[3]});
+    slab.push_back({static_cast<std::int32_t>(i), 0,
+                    wall_modulus_[static_cast<std::size_t>(mineral_[i])] * std::numbers::pi * pose_[i].v[3]});
   }
 }
 
@@ -626,10 +643,9 @@ Assembly::Counts Assembly::counts() const {
     c.bonds += real(block.bond_contact);
     c.broken_joints += static_cast<std::int64_t>(block.broken.size());
     c.fresh += static_cast<std::int64_t>(block.fresh.size());
-    c.bytes += static_cast<std::int64_t>(block.joints.size() * sizeof(FlatJointPack) +
-                                         block.bonds.size() * sizeof(ParallelBondPack) +
-                                         block.broken.size() * sizeof(PartlyBrokenJoint) +
-                                         block.fresh.size() * sizeof(FreshContact));
+    c.bytes += static_cast<std::int64_t>(
+        block.joints.size() * sizeof(FlatJointPack) + block.bonds.size() * sizeof(ParallelBondPack) +
+        block.broken.size() * sizeof(PartlyBrokenJoint) + block.fresh.size() * sizeof(FreshContact));
   }
   return c;
 }

@@ -30,26 +30,26 @@ struct alignas(64) Row8 {
 /// One contact as installed: free of stress at the present distance.
 struct BondSpec {
   std::int32_t first = 0, second = 0;
-  bool boundary = false;   ///< true: parallel bond (between grains), false: flat joint (inside)
-  bool frictional = false; ///< true: no bond at all, only the linear part
+  bool boundary = false;    ///< true: parallel bond (between grains), false: flat joint (inside)
+  bool frictional = false;  ///< true: no bond at all, only the linear part
   ContactGroup group;
 };
 
 struct AssemblyInput {
-  std::vector<Vec3> position;          ///< m, ordered in slabs along z
-  std::vector<double> radius;          ///< m
-  std::vector<double> density;         ///< kg/m^3
-  std::vector<std::int32_t> mineral;   ///< index into `fresh` and wall_modulus
+  std::vector<Vec3> position;         ///< m, ordered in slabs along z
+  std::vector<double> radius;         ///< m
+  std::vector<double> density;        ///< kg/m^3
+  std::vector<std::int32_t> mineral;  ///< index into `fresh` and wall_modulus
   std::vector<BondSpec> bonds;
   std::vector<std::vector<ContactGroup>> fresh;  ///< [mineral][mineral]: linear parts of contacts that form later
-  std::vector<double> wall_modulus;    ///< E_c of each mineral, Pa: platen contacts have k = E_c pi r
-  std::vector<std::int8_t> grip;       ///< 0 free, 1 held by the lower grip, 2 by the upper; empty: none
-  bool platens = false;                ///< frictionless rigid planes at z_low and z_high
-  double z_low = 0, z_high = 0;        ///< m; lower and upper platen (or grip face)
-  double jacket_radius = 0;            ///< m; frictionless cylindrical wall round the z axis, for confine(); 0: none
-  double damping = 0.7;                ///< alpha
-  double time_step_factor = 0.8;       ///< of the critical step from the stiffness sums
-  int slabs = 0;                       ///< 0: chosen
+  std::vector<double> wall_modulus;              ///< E_c of each mineral, Pa: platen contacts have k = E_c pi r
+  std::vector<std::int8_t> grip;                 ///< 0 free, 1 held by the lower grip, 2 by the upper; empty: none
+  bool platens = false;                          ///< frictionless rigid planes at z_low and z_high
+  double z_low = 0, z_high = 0;                  ///< m; lower and upper platen (or grip face)
+  double jacket_radius = 0;       ///< m; frictionless cylindrical wall round the z axis, for confine(); 0: none
+  double damping = 0.7;           ///< alpha
+  double time_step_factor = 0.8;  ///< of the critical step from the stiffness sums
+  int slabs = 0;                  ///< 0: chosen
 };
 
 /// Broken bonds or joint elements, as they happen.
@@ -60,12 +60,12 @@ struct Crack {
   std::int8_t boundary = 0;  ///< 1: between grains
   Vec3 position{};           ///< m
   Vec3 normal{};
-  double area = 0;           ///< m^2
+  double area = 0;  ///< m^2
 };
 
 /// The energy account, J. residual = work - everything else.
 struct Ledger {
-  double work = 0;          ///< of platens or grips, and of the jacket
+  double work = 0;  ///< of platens or grips, and of the jacket
   double elastic = 0, kinetic = 0;
   double damping = 0, friction = 0;
   double bond_tension = 0, bond_shear = 0;  ///< released by cracks
@@ -76,11 +76,11 @@ struct Ledger {
 
 /// What a sample tells about the assembly at one instant.
 struct Sample {
-  double step = 0, time = 0;            ///< -, s
-  std::array<double, 2> force{};        ///< z-force of the lower and upper platen (or grip) on the specimen, N
-  std::array<double, 2> place{};        ///< z of the two, m
-  double jacket_radius = 0;             ///< m
-  double confining_pressure = 0;        ///< of the jacket on the specimen: its force over its area, Pa
+  double step = 0, time = 0;      ///< -, s
+  std::array<double, 2> force{};  ///< z-force of the lower and upper platen (or grip) on the specimen, N
+  std::array<double, 2> place{};  ///< z of the two, m
+  double jacket_radius = 0;       ///< m
+  double confining_pressure = 0;  ///< of the jacket on the specimen: its force over its area, Pa
   Ledger ledger;
 };
 
@@ -97,14 +97,14 @@ class Assembly {
   /// Advances by `steps` steps and samples at the last of them.
   Sample advance(std::int64_t steps);
 
-  [[nodiscard]] double time_step() const { return dt_; }                      ///< s
+  [[nodiscard]] double time_step() const { return dt_; }  ///< s
   [[nodiscard]] std::int64_t step() const { return step_; }
   [[nodiscard]] std::size_t particles() const { return pose_.size(); }
   [[nodiscard]] const std::vector<Row8>& poses() const { return pose_; }      ///< x y z radius | w x y z
   [[nodiscard]] std::vector<Row8>& velocities() { return velocity_; }         ///< vx vy vz 0 | wx wy wz 0
   [[nodiscard]] const std::vector<Crack>& cracks() const { return cracks_; }  ///< ordered by step
   [[nodiscard]] double mass(std::size_t particle) const { return inertia_[particle].mass; }
-  [[nodiscard]] std::size_t fresh_contacts() const;                           ///< contacts formed after installation
+  [[nodiscard]] std::size_t fresh_contacts() const;  ///< contacts formed after installation
   void set_threads(int threads) { threads_ = threads; }
   void set_kernels(const Kernels& set) { kernels_ = &set; }
 
@@ -116,8 +116,8 @@ class Assembly {
 
   template <class Archive>
   void archive(Archive& a) {
-    a(step_, walls_, pose_, velocity_, force_, near_, blocks_, cracks_, wall_contacts_, sums_,
-      jacket_, jacket_contacts_);
+    a(step_, walls_, pose_, velocity_, force_, near_, blocks_, cracks_, wall_contacts_, sums_, jacket_,
+      jacket_contacts_);
   }
 
  private:
@@ -137,7 +137,7 @@ class Assembly {
   };
   struct Wall {
     double z = 0, z_before = 0;
-    double drift_before = 0;                     ///< m, of the step before
+    double drift_before = 0;                 ///< m, of the step before
     double speed = 0, target = 0, gain = 0;  ///< m/s, m/s, m/s a step
     double stiffness = 0;                    ///< of all its first contacts, N/m
     std::int64_t servo = 0;                  ///< 1: moved by the confining pressure, not by its speed
@@ -148,10 +148,10 @@ class Assembly {
     double stiffness = 0;    ///< N/m
   };
   struct Jacket {
-    double radius = 0, radius_before = 0;        ///< m
-    double pressure = 0, target = 0, gain = 0;   ///< Pa, Pa, Pa a step
-    double stiffness = 0;                        ///< of all its first contacts, N/m
-    double force_before = 0, drift = 0;          ///< N, m: of the step before
+    double radius = 0, radius_before = 0;       ///< m
+    double pressure = 0, target = 0, gain = 0;  ///< Pa, Pa, Pa a step
+    double stiffness = 0;                       ///< of all its first contacts, N/m
+    double force_before = 0, drift = 0;         ///< N, m: of the step before
   };
   /// Contacts of one slab, or between two neighbouring slabs.
   struct Block {
@@ -163,7 +163,7 @@ class Assembly {
     std::vector<FreshContact> fresh;
     std::vector<std::array<std::int32_t, 2>> candidates;  ///< near pairs without contact
     std::vector<std::int32_t> flagged;
-    std::vector<std::int32_t> active;         ///< broken joints that do not stay open in this step
+    std::vector<std::int32_t> active;  ///< broken joints that do not stay open in this step
     std::vector<Crack> cracks;
     double friction = 0, bond_tension = 0, bond_shear = 0, elastic = 0;
     template <class Archive>
@@ -176,8 +176,8 @@ class Assembly {
   struct SlabSums {
     std::array<double, 2> force{}, force_before{};  ///< of the platens or grips on the specimen
     double work = 0, damping = 0, kinetic = 0, elastic = 0;
-    double late_damping = 0;                        ///< heat of the second half of the present kick
-    std::array<double, 2> stiffness{};              ///< of the platen contacts that bear, N/m
+    double late_damping = 0;            ///< heat of the second half of the present kick
+    std::array<double, 2> stiffness{};  ///< of the platen contacts that bear, N/m
     double jacket_force = 0, jacket_force_before = 0, jacket_stiffness = 0;  ///< sums over radial forces
   };
 
@@ -210,18 +210,18 @@ class Assembly {
   std::vector<std::vector<ContactGroup>> fresh_;
   std::vector<double> wall_modulus_;
   std::vector<BondSpec> specs_;
-  std::vector<std::int32_t> slab_begin_;   ///< slabs + 1
+  std::vector<std::int32_t> slab_begin_;  ///< slabs + 1
   bool platens_ = false;
   std::vector<std::vector<std::int32_t>> held_;  ///< by slab; empty without grips
-  double skin_ = 0;                        ///< m
+  double skin_ = 0;                              ///< m
 
   // state
   std::int64_t step_ = 0;
   double dt_ = 0;
   std::array<Wall, 2> walls_{};
   std::vector<Row8> pose_, velocity_, force_;
-  std::vector<Row8> near_;                 ///< positions when the near pairs were last found
-  std::vector<Block> blocks_;              ///< slabs, then pairs of neighbours, then one for the rest
+  std::vector<Row8> near_;     ///< positions when the near pairs were last found
+  std::vector<Block> blocks_;  ///< slabs, then pairs of neighbours, then one for the rest
   std::vector<Crack> cracks_;
   std::vector<std::vector<WallContact>> wall_contacts_;  ///< by slab
   std::vector<SlabSums> sums_;

@@ -54,9 +54,16 @@ void fill_lane(FlatJointPack& pack, int lane, const BondSpec& spec, const Triple
   using F = FlatJointPack;
   const double length = root(dot(d, d));
   const double kn = spec.group.bond_modulus / both;  // Pa/m
-  const double values[F::fields] = {d.x, d.y, d.z, share_one, length, kn * pi * r * r,
-                                    1 / spec.group.bond_stiffness_ratio, flat_joint_arm * r,
-                                    spec.group.tensile_strength / kn, spec.group.cohesion / kn,
+  const double values[F::fields] = {d.x,
+                                    d.y,
+                                    d.z,
+                                    share_one,
+                                    length,
+                                    kn * pi * r * r,
+                                    1 / spec.group.bond_stiffness_ratio,
+                                    flat_joint_arm * r,
+                                    spec.group.tensile_strength / kn,
+                                    spec.group.cohesion / kn,
                                     std::tan(spec.group.friction_angle)};
   for (int f = 0; f < F::fields; ++f) pack.field[f][lane] = values[f];
 }
@@ -67,11 +74,26 @@ void fill_lane(ParallelBondPack& pack, int lane, const BondSpec& spec, const Tri
   const double length = root(dot(d, d)), area = pi * r * r;
   const ContactGroup& g = spec.group;
   const double kbn = g.bond_modulus / both;
-  const double values[F::fields] = {
-      d.x, d.y, d.z, share_one, length, area * g.modulus / both, 1 / g.stiffness_ratio, g.friction,
-      spec.frictional ? 0.0 : area * kbn, spec.frictional ? 0.0 : 1 / g.bond_stiffness_ratio, r,
-      spec.frictional ? huge : g.tensile_strength / kbn, spec.frictional ? huge : g.cohesion / kbn,
-      spec.frictional ? 0.0 : std::tan(g.friction_angle), 0, 0, 0, 0, 0, 0};
+  const double values[F::fields] = {d.x,
+                                    d.y,
+                                    d.z,
+                                    share_one,
+                                    length,
+                                    area * g.modulus / both,
+                                    1 / g.stiffness_ratio,
+                                    g.friction,
+                                    spec.frictional ? 0.0 : area * kbn,
+                                    spec.frictional ? 0.0 : 1 / g.bond_stiffness_ratio,
+                                    r,
+                                    spec.frictional ? huge : g.tensile_strength / kbn,
+                                    spec.frictional ? huge : g.cohesion / kbn,
+                                    spec.frictional ? 0.0 : std::tan(g.friction_angle),
+                                    0,
+                                    0,
+                                    0,
+                                    0,
+                                    0,
+                                    0};
   for (int f = 0; f < F::fields; ++f) pack.field[f][lane] = values[f];
 }
 
@@ -120,8 +142,14 @@ std::vector<std::int32_t> order_in_slabs(const std::vector<Vec3>& position, cons
 }
 
 Assembly::Assembly(const AssemblyInput& input, int threads)
-    : threads_(std::max(threads, 1)), kernels_(&kernels()), damping_(input.damping), mineral_(input.mineral),
-      grip_(input.grip), fresh_(input.fresh), wall_modulus_(input.wall_modulus), specs_(input.bonds),
+    : threads_(std::max(threads, 1)),
+      kernels_(&kernels()),
+      damping_(input.damping),
+      mineral_(input.mineral),
+      grip_(input.grip),
+      fresh_(input.fresh),
+      wall_modulus_(input.wall_modulus),
+      specs_(input.bonds),
       platens_(input.platens) {
   install(input);
   choose_time_step(input);
@@ -246,7 +274,8 @@ void Assembly::choose_time_step(const AssemblyInput& input) {
     }
     const std::array<double, 3> unit = {d.x / length, d.y / length, d.z / length};
     for (const std::int32_t p : {spec.first, spec.second}) {
-      const double share = p == spec.first ? 0.5 * (length + one.v[3] - two.v[3]) : 0.5 * (length + two.v[3] - one.v[3]);
+      const double share =
+          p == spec.first ? 0.5 * (length + one.v[3] - two.v[3]) : 0.5 * (length + two.v[3] - one.v[3]);
       auto& sum = k[static_cast<std::size_t>(p)];
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const double along = unit[axis] * unit[axis];

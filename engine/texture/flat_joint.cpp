@@ -59,7 +59,8 @@ JointResult advance(PartlyBrokenJoint& joint, const Pose<double>& one, const Pos
   if (joint.broken() && m.gap > 0 && m.gap * m.gap > joint.law.rho * joint.law.rho * dot(m.theta_t, m.theta_t)) {
     if (!joint.open) {
       for (JointElement& element : joint.element) {  // the mean of the last friction and none, over the slip
-        result.friction_heat += half * (joint.law.normal / 3.0 * joint.law.inverse_ratio) * dot(element.shear, element.shear);
+        result.friction_heat +=
+            half * (joint.law.normal / 3.0 * joint.law.inverse_ratio) * dot(element.shear, element.shear);
         element.shear = {0, 0, 0};
       }
       joint.open = true;
@@ -67,7 +68,7 @@ JointResult advance(PartlyBrokenJoint& joint, const Pose<double>& one, const Pos
     return result;
   }
   const Arms arm = arms(joint, one, m);
-  const double kn = joint.law.normal / 3.0;              // of an element, N/m
+  const double kn = joint.law.normal / 3.0;  // of an element, N/m
   const double ks = kn * joint.law.inverse_ratio;
   const bool torn = mismatched(m);
   const bool closes = joint.open;
@@ -98,7 +99,7 @@ JointResult advance(PartlyBrokenJoint& joint, const Pose<double>& one, const Pos
     double normal = kn * at.gap;
     if (!element.bonded) {
       normal = std::min(normal, 0.0);
-      const double limit = -joint.friction * normal;     // N
+      const double limit = -joint.friction * normal;  // N
       const double trial = ks * length;
       if (trial > limit) {
         const double keep = limit / trial;
@@ -114,8 +115,12 @@ JointResult advance(PartlyBrokenJoint& joint, const Pose<double>& one, const Pos
       const double gap = std::min(at.gap, 0.0);
       const double after = half * (kn * gap * gap + ks * length * length);
       const Triple<double> gone = whole - ((-normal) * m.n - ks * at.shear);
-      result.broke[result.breaks++] = {e, in_shear, one.x + (joint.share_one * m.length) * m.n + arm.rho[e], m.n,
-                                       0.0, before - after,
+      result.broke[result.breaks++] = {e,
+                                       in_shear,
+                                       one.x + (joint.share_one * m.length) * m.n + arm.rho[e],
+                                       m.n,
+                                       0.0,
+                                       before - after,
                                        action_at_contact(m, joint.share_one, gone, cross(arm.rho[e], gone))};
     }
     const Triple<double> f = (-normal) * m.n - ks * at.shear;

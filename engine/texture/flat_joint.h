@@ -30,11 +30,11 @@ inline constexpr double flat_joint_arm = 0.55132889542179209;
 /// An intact flat joint. Strengths are divided by kn: displacements in m.
 template <class V>
 struct FlatJoint {
-  V normal;        ///< Kn = kn A, N/m
-  V inverse_ratio; ///< 1 / kappa
-  V rho;           ///< m
-  V opening;       ///< sigma_t / kn, m
-  V cohesion;      ///< C / kn, m
+  V normal;         ///< Kn = kn A, N/m
+  V inverse_ratio;  ///< 1 / kappa
+  V rho;            ///< m
+  V opening;        ///< sigma_t / kn, m
+  V cohesion;       ///< C / kn, m
   V tan_phi;
 };
 
@@ -64,17 +64,18 @@ struct JointElement {
 
 /// A flat joint with its elements, and what it takes to evaluate and log it.
 struct PartlyBrokenJoint {
-  int first = 0, second = 0;     ///< particles
-  int contact = 0;               ///< index in the specimen's contact table
-  Triple<double> reference{};    ///< D, m
+  int first = 0, second = 0;   ///< particles
+  int contact = 0;             ///< index in the specimen's contact table
+  Triple<double> reference{};  ///< D, m
   double share_one = 0.5;
-  double reference_length = 0;   ///< |D|, m
+  double reference_length = 0;  ///< |D|, m
   FlatJoint<double> law{};
-  double friction = 0;           ///< mu
-  Triple<double> zero_angle{};   ///< unit vector in the joint's plane (frame of particle 1) from which angles are counted
+  double friction = 0;  ///< mu
+  Triple<double>
+      zero_angle{};  ///< unit vector in the joint's plane (frame of particle 1) from which angles are counted
   JointElement element[3];
-  bool alive = true;             ///< false: parted for good and dropped
-  bool open = false;             ///< all three elements broken and apart in the last step
+  bool alive = true;  ///< false: parted for good and dropped
+  bool open = false;  ///< all three elements broken and apart in the last step
 
   [[nodiscard]] bool broken() const { return !element[0].bonded && !element[1].bonded && !element[2].bonded; }
 };
@@ -101,14 +102,14 @@ struct ElementBreak {
   bool shear = false;
   Triple<double> position{};  ///< centroid, m
   Triple<double> normal{};
-  double area = 0;            ///< m^2
-  double released = 0;        ///< drop of stored energy, J
-  Action<double> removed{};   ///< what the element did just before less what it does after
+  double area = 0;           ///< m^2
+  double released = 0;       ///< drop of stored energy, J
+  Action<double> removed{};  ///< what the element did just before less what it does after
 };
 
 struct JointResult {
   Action<double> action{};
-  double friction_heat = 0;   ///< J, in this call
+  double friction_heat = 0;  ///< J, in this call
   int breaks = 0;
   ElementBreak broke[3];
 };

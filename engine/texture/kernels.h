@@ -17,9 +17,27 @@ struct alignas(64) FlatJointPack {
 /// Eight grain-boundary contacts: parallel bond (bonded or broken) with its linear part and its slip.
 struct alignas(64) ParallelBondPack {
   enum Field {
-    dx, dy, dz, share_one, length, linear_normal, linear_inverse_ratio, friction,
-    normal, inverse_ratio, radius, opening, cohesion, tan_phi, slip_x, slip_y, slip_z,
-    shear_x, shear_y, shear_z, fields
+    dx,
+    dy,
+    dz,
+    share_one,
+    length,
+    linear_normal,
+    linear_inverse_ratio,
+    friction,
+    normal,
+    inverse_ratio,
+    radius,
+    opening,
+    cohesion,
+    tan_phi,
+    slip_x,
+    slip_y,
+    slip_z,
+    shear_x,
+    shear_y,
+    shear_z,
+    fields
   };
   double field[fields][pack_width];
   std::int32_t first[pack_width], second[pack_width];
@@ -30,14 +48,14 @@ struct alignas(64) ParallelBondPack {
 struct BondLoop {
   const double* pose;
   double* force;
-  std::int32_t* flagged;        ///< out: slots (8 * pack + lane) that may have broken
-  std::int32_t flagged_count;   ///< out
-  double heat;                  ///< out: friction heat of this pass, J
+  std::int32_t* flagged;       ///< out: slots (8 * pack + lane) that may have broken
+  std::int32_t flagged_count;  ///< out
+  double heat;                 ///< out: friction heat of this pass, J
 };
 
 /// Mass and moment of inertia of a particle, and the time step over each.
 struct alignas(32) Inertia {
-  double mass, moment;                  ///< kg, kg m^2
+  double mass, moment;  ///< kg, kg m^2
   double step_over_mass, step_over_moment;
 };
 
@@ -45,10 +63,10 @@ struct alignas(32) Inertia {
 struct MotionLoop {
   double* pose;
   double* velocity;
-  double* force;                ///< set to zero
+  double* force;  ///< set to zero
   const Inertia* inertia;
   std::int64_t count;
-  double step;                  ///< s
+  double step;  ///< s
   double damping;
   /// Out, J: what damping took from the velocities before and after together times two; with those after alone; and
   /// twice the kinetic energy in the middle of the step.

@@ -14,19 +14,26 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 
 std::vector<Key> declare() {
   using enum KeyType;
-  const auto number = [](const char* path, const char* unit, double low, double high, const char* standard, const char* help) {
-    return Key{path, real, unit, low, high, {}, standard, help};
-  };
+  const auto number = [](const char* path, const char* unit, double low, double high, const char* standard,
+                         const char* help) { return Key{path, real, unit, low, high, {}, standard, help}; };
   return {
-      Key{"rock", text, "", -inf, inf, {}, "\"\"",
+      Key{"rock",
+          text,
+          "",
+          -inf,
+          inf,
+          {},
+          "\"\"",
           "name of the rock; published numbers stand beside ours for the rock that they belong to"},
       number("specimen.diameter", "mm", 1, 1000, "", "diameter of the cylinder"),
       number("specimen.height", "mm", 1, 2000, "", "height of the cylinder, along the loading axis z"),
       number("packing.minimum_radius", "mm", 0.01, 100, "", "R_min of the sub-grain particles (Table 4)"),
       number("packing.radius_ratio", "", 1, 5, "1.66", "R_max / R_min (Table 4)"),
       number("packing.modulus", "GPa", 0.01, 1000, "", "E* of the sub-grain particles while they are packed (Table 4)"),
-      number("packing.pressure_ratio", "", 1e-4, 0.1, "0.01", "material pressure over packing.modulus; not in the paper"),
-      number("packing.porosity", "", 0.25, 0.6, "0.3325", "porosity of the cloud as drawn; sets the number of particles"),
+      number("packing.pressure_ratio", "", 1e-4, 0.1, "0.01",
+             "material pressure over packing.modulus; not in the paper"),
+      number("packing.porosity", "", 0.25, 0.6, "0.3325",
+             "porosity of the cloud as drawn; sets the number of particles"),
       Key{"mineral[].name", text, "", -inf, inf, {}, "", "name of the mineral"},
       number("mineral[].share", "%", 0, 100, "", "C_m, volume share of the grain seeds; the shares add to 100 %"),
       number("mineral[].diameter_min", "mm", 0.01, 1000, "", "D_min of the grain seeds"),
@@ -50,13 +57,37 @@ std::vector<Key> declare() {
       number("texture.dip", "deg", 0, 90, "\"0 deg\"", "dip of the long axes, from the horizontal"),
       number("texture.dip_direction", "deg", -360, 360, "\"0 deg\"", "azimuth of the long axes, from x"),
       number("texture.seed_scale", "", 0.1, 10, "1.0", "factor on the diameters of the grain seeds"),
-      Key{"texture.growth", text, "", -inf, inf, {"most_contacts", "deepest_contact"}, "\"most_contacts\"",
+      Key{"texture.growth",
+          text,
+          "",
+          -inf,
+          inf,
+          {"most_contacts", "deepest_contact"},
+          "\"most_contacts\"",
           "whose grain a gap particle takes that touches several: most of its neighbours, or the deepest contact"},
-      Key{"texture.flat_joint_modulus", text, "", -inf, inf, {"sum", "linear"}, "\"sum\"",
+      Key{"texture.flat_joint_modulus",
+          text,
+          "",
+          -inf,
+          inf,
+          {"sum", "linear"},
+          "\"sum\"",
           "modulus of the flat joint: E_c + E_b, or E_c alone"},
-      Key{"texture.same_mineral_boundaries", boolean, "", -inf, inf, {}, "true",
+      Key{"texture.same_mineral_boundaries",
+          boolean,
+          "",
+          -inf,
+          inf,
+          {},
+          "true",
           "grains of one mineral meet in parallel bonds; false: in flat joints"},
-      Key{"texture.only_mineral", text, "", -inf, inf, {}, "\"\"",
+      Key{"texture.only_mineral",
+          text,
+          "",
+          -inf,
+          inf,
+          {},
+          "\"\"",
           "name of a mineral: the specimen is of it alone, joined by flat joints throughout; empty: all minerals"},
       number("solver.damping", "", 0, 0.95, "0.7", "local damping alpha"),
       number("solver.time_step_factor", "", 0.01, 1, "0.8", "of the critical step from the stiffness sums"),
@@ -79,19 +110,56 @@ std::vector<Key> declare() {
       number("measure.gauge", "", 0.1, 1, "0.6", "length of the strain gauge over the height"),
       number("measure.stiffness_departure", "", 0.001, 0.5, "0.02",
              "share by which the axial stiffness leaves its plateau at crack initiation"),
-      Key{"tests", texts, "", -inf, inf, {"compression", "direct_tension", "genesis"}, "",
+      Key{"tests",
+          texts,
+          "",
+          -inf,
+          inf,
+          {"compression", "direct_tension", "genesis"},
+          "",
           "tests to run on each specimen; genesis makes it and does not load it"},
-      Key{"repeats", KeyType::integer, "", 1, 1000, {}, "1",
+      Key{"repeats",
+          KeyType::integer,
+          "",
+          1,
+          1000,
+          {},
+          "1",
           "specimens of each kind, with seed, seed + 1, ...: tells a trend from scatter"},
-      Key{"sweep.aspect_ratio", reals, "", 1, 20, {}, "[]", "aspect ratios, one specimen each; empty: texture.aspect_ratio"},
+      Key{"sweep.aspect_ratio",
+          reals,
+          "",
+          1,
+          20,
+          {},
+          "[]",
+          "aspect ratios, one specimen each; empty: texture.aspect_ratio"},
       Key{"sweep.dip", reals, "deg", 0, 90, {}, "[]", "dips of the long axes, one specimen each; empty: texture.dip"},
-      Key{"sweep.confining_pressure", reals, "MPa", 0, 1000, {}, "[]",
+      Key{"sweep.confining_pressure",
+          reals,
+          "MPa",
+          0,
+          1000,
+          {},
+          "[]",
           "confining pressures of the compression tests; empty: compression.confining_pressure"},
-      Key{"sweep.mineral", texts, "", -inf, inf, {}, "[]",
+      Key{"sweep.mineral",
+          texts,
+          "",
+          -inf,
+          inf,
+          {},
+          "[]",
           "names of minerals, one specimen of each alone; empty: texture.only_mineral"},
       number("extra[].aspect_ratio", "", 1, 20, "1.0", "aspect ratio of a specimen beside the sweep"),
       number("extra[].seed_scale", "", 0.1, 10, "1.0", "seed scale of a specimen beside the sweep"),
-      Key{"extra[].growth", text, "", -inf, inf, {"most_contacts", "deepest_contact"}, "\"most_contacts\"",
+      Key{"extra[].growth",
+          text,
+          "",
+          -inf,
+          inf,
+          {"most_contacts", "deepest_contact"},
+          "\"most_contacts\"",
           "rule of growth of a specimen beside the sweep"},
   };
 }
@@ -126,40 +194,47 @@ Settings read_settings(const Scenario& s, TestKind test) {
   for (std::size_t i = 0; i < count; ++i) {
     const auto key = [i](const char* name) { return fmt::format("mineral[{}].{}", i, name); };
     const auto get = [&](const char* name) { return s.real(key(name)); };
-    Mineral m{s.text(key("name")),  get("share"),        get("diameter_min"),     get("diameter_max"),
-              get("density"),       get("modulus"),      get("stiffness_ratio"),  get("friction"),
-              get("bond_modulus"),  get("bond_stiffness_ratio"), get("tensile_strength"), get("cohesion"),
+    Mineral m{s.text(key("name")),     get("share"),
+              get("diameter_min"),     get("diameter_max"),
+              get("density"),          get("modulus"),
+              get("stiffness_ratio"),  get("friction"),
+              get("bond_modulus"),     get("bond_stiffness_ratio"),
+              get("tensile_strength"), get("cohesion"),
               get("friction_angle")};
     if (m.diameter_max < m.diameter_min) {
       throw s.error(key("diameter_max"), "it is smaller than diameter_min", "the range runs from diameter_min up");
     }
     if (m.diameter_min * s.real("texture.seed_scale") > r.packing.vessel.diameter) {
-      throw s.error(key("diameter_min"), "the grains are larger than the specimen", "choose grains that fit its diameter");
+      throw s.error(key("diameter_min"), "the grains are larger than the specimen",
+                    "choose grains that fit its diameter");
     }
     for (const Mineral& other : r.minerals) {
-      if (other.name == m.name) throw s.error(key("name"), "two minerals are called '" + m.name + "'", "give each its own name");
+      if (other.name == m.name)
+        throw s.error(key("name"), "two minerals are called '" + m.name + "'", "give each its own name");
     }
     sum += m.share;
     r.minerals.push_back(std::move(m));
   }
-  if (count == 0) throw InputError({s.file(), 0, 0}, "mineral", "no mineral is given", "write at least one [[mineral]] table");
+  if (count == 0)
+    throw InputError({s.file(), 0, 0}, "mineral", "no mineral is given", "write at least one [[mineral]] table");
   if (std::abs(sum - 1) > 1e-6) {
-    throw s.error(fmt::format("mineral[{}].share", count - 1), fmt::format("the shares of the minerals add to {:.6g} %", 100 * sum),
-                  "they must add to 100 %");
+    throw s.error(fmt::format("mineral[{}].share", count - 1),
+                  fmt::format("the shares of the minerals add to {:.6g} %", 100 * sum), "they must add to 100 %");
   }
   if (!only.empty()) {
     std::vector<std::string> names;
     for (const Mineral& m : r.minerals) names.push_back(m.name);
     std::erase_if(r.minerals, [&](const Mineral& m) { return m.name != only; });
     if (r.minerals.empty()) {
-      throw s.error("texture.only_mineral", "there is no mineral '" + only + "'", fmt::format("given are {}", fmt::join(names, ", ")));
+      throw s.error("texture.only_mineral", "there is no mineral '" + only + "'",
+                    fmt::format("given are {}", fmt::join(names, ", ")));
     }
     r.minerals.front().share = 1;
     r.one_mineral = true;
   }
-  r.interaction = {s.real("interaction.modulus"),          s.real("interaction.stiffness_ratio"),
-                   s.real("interaction.friction"),         s.real("interaction.tensile_strength"),
-                   s.real("interaction.cohesion"),         s.real("interaction.friction_angle")};
+  r.interaction = {s.real("interaction.modulus"),  s.real("interaction.stiffness_ratio"),
+                   s.real("interaction.friction"), s.real("interaction.tensile_strength"),
+                   s.real("interaction.cohesion"), s.real("interaction.friction_angle")};
   r.shape = {s.real("texture.aspect_ratio"), s.real("texture.dip"), s.real("texture.dip_direction")};
   r.seed_scale = s.real("texture.seed_scale");
   r.growth = s.text("texture.growth") == "deepest_contact" ? GrowthRule::deepest_contact : GrowthRule::most_contacts;
@@ -179,7 +254,8 @@ Settings read_settings(const Scenario& s, TestKind test) {
   r.confining_step = s.real("compression.confining_step");
   r.grip = s.real("direct_tension.grip");
   if (r.sample_strain < r.rate) {
-    throw s.error(group + "sample_strain", "samples are closer than steps", "write at least the value of " + group + "rate");
+    throw s.error(group + "sample_strain", "samples are closer than steps",
+                  "write at least the value of " + group + "rate");
   }
   r.gauge = s.real("measure.gauge");
   r.stiffness_departure = s.real("measure.stiffness_departure");

@@ -16,21 +16,21 @@ namespace dem::texture {
 
 template <class V>
 struct Pose {
-  Triple<V> x;       ///< m
+  Triple<V> x;  ///< m
   Quaternion<V> q;
 };
 
 template <class V>
 struct Motion {
-  V length;          ///< L, m
-  V gap;             ///< g, m
+  V length;  ///< L, m
+  V gap;     ///< g, m
   Triple<V> n;
-  Triple<V> w1, w2;  ///< m
-  V along;           ///< (w1 + w2).n, m
-  Triple<V> u;       ///< m
-  V cosine;          ///< scalar part of q
-  Triple<V> theta_t; ///< bending part of theta
-  V theta_n;         ///< twisting part of theta, about n
+  Triple<V> w1, w2;   ///< m
+  V along;            ///< (w1 + w2).n, m
+  Triple<V> u;        ///< m
+  V cosine;           ///< scalar part of q
+  Triple<V> theta_t;  ///< bending part of theta
+  V theta_n;          ///< twisting part of theta, about n
 };
 
 template <class V>

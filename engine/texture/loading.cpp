@@ -9,8 +9,8 @@
 namespace dem::texture {
 namespace {
 
-constexpr double least_peak = 1e5;      // Pa: a test cannot end on the noise before it has begun
-constexpr std::int64_t frame_rows = 12; // samples between kept frames
+constexpr double least_peak = 1e5;       // Pa: a test cannot end on the noise before it has begun
+constexpr std::int64_t frame_rows = 12;  // samples between kept frames
 
 constexpr std::int64_t isotropic_chunk = 200, settling_steps = 1500;
 
@@ -18,8 +18,10 @@ constexpr std::int64_t isotropic_chunk = 200, settling_steps = 1500;
 
 LoadingTest::LoadingTest(const Specimen& specimen, const Settings& settings, int threads)
     : settings_(settings),
-      gauge_(specimen.packing.position, settings.packing.vessel.height, settings.gauge * settings.packing.vessel.height),
-      start_(specimen.packing.position), assembly_(assembly_input(specimen, settings), threads),
+      gauge_(specimen.packing.position, settings.packing.vessel.height,
+             settings.gauge * settings.packing.vessel.height),
+      start_(specimen.packing.position),
+      assembly_(assembly_input(specimen, settings), threads),
       area_(std::numbers::pi / 4 * settings.packing.vessel.diameter * settings.packing.vessel.diameter),
       height_(settings.packing.vessel.height) {
   if (settings.confining_pressure > 0) {
@@ -33,7 +35,8 @@ LoadingTest::LoadingTest(const Specimen& specimen, const Settings& settings, int
 
 void LoadingTest::begin() {
   const double speed = 0.5 * settings_.rate * height_ / assembly_.time_step();
-  const double sense = settings_.test == TestKind::compression ? 1 : -1;  // both ends move, towards each other in compression
+  const double sense =
+      settings_.test == TestKind::compression ? 1 : -1;  // both ends move, towards each other in compression
   assembly_.drive(sense * speed, -sense * speed, static_cast<std::int64_t>(settings_.ramp_strain / settings_.rate));
 }
 
@@ -78,7 +81,8 @@ bool LoadingTest::advance() {
   row.platen_strain = sense * ((sample.place[1] - sample.place[0]) / height_ - 1);
   row.axial_strain = sense * strains.axial;
   row.lateral_strain = compression ? -strains.lateral : strains.lateral;
-  const double lower = -sense * sample.force[0], upper = sense * sample.force[1];  // both positive in the sense of the test
+  const double lower = -sense * sample.force[0],
+               upper = sense * sample.force[1];  // both positive in the sense of the test
   row.axial_stress = 0.5 * (lower + upper) / area_;
   row.stress_imbalance = (upper - lower) / area_;
   row.confining_pressure = sample.confining_pressure;
@@ -90,7 +94,8 @@ bool LoadingTest::advance() {
   row.cracks = crack_counts_;
   row.ledger = sample.ledger;
   if (!std::isfinite(row.axial_stress) || !std::isfinite(row.ledger.kinetic)) {
-    throw CaseError(fmt::format("the motion blew up at step {:.0f}; a smaller solver.time_step_factor may help", row.step));
+    throw CaseError(
+        fmt::format("the motion blew up at step {:.0f}; a smaller solver.time_step_factor may help", row.step));
   }
   if (history_.size() % frame_rows == 0) {
     Frame frame;

@@ -15,8 +15,8 @@ namespace dem::texture {
 
 /// Displacements at one sample, kept at regular strains so that named moments can be shown afterwards.
 struct Frame {
-  std::int64_t row = 0;              ///< of the history
-  std::vector<float> displacement;   ///< m, three a particle
+  std::int64_t row = 0;             ///< of the history
+  std::vector<float> displacement;  ///< m, three a particle
   template <class Archive>
   void archive(Archive& a) {
     a(row, displacement);

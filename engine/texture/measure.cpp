@@ -85,7 +85,8 @@ Characteristics characterise(const std::vector<HistoryRow>& h, double departure,
   if (half > 0 && h[half].axial_strain > 0) c.poisson_ratio = -h[half].lateral_strain / h[half].axial_strain;
   if (middle > low) {
     double plateau = 0;
-    for (std::size_t i = low; i <= middle; ++i) plateau += axial_stiffness(h, i) / static_cast<double>(middle - low + 1);
+    for (std::size_t i = low; i <= middle; ++i)
+      plateau += axial_stiffness(h, i) / static_cast<double>(middle - low + 1);
     for (std::size_t i = middle; i <= c.peak; ++i) {
       if (std::abs(axial_stiffness(h, i) / plateau - 1) > departure) {
         c.initiation_stiffness = i;

@@ -16,10 +16,10 @@ namespace dem::texture {
 struct HistoryRow {
   double step = 0, time = 0;
   double platen_strain = 0, axial_strain = 0, lateral_strain = 0;
-  double axial_stress = 0;           ///< mean of both ends over the initial area
-  double stress_imbalance = 0;       ///< difference of both ends
-  double confining_pressure = 0;     ///< of the jacket on the specimen
-  std::array<double, 4> cracks{};    ///< intra tension, intra shear, inter tension, inter shear
+  double axial_stress = 0;         ///< mean of both ends over the initial area
+  double stress_imbalance = 0;     ///< difference of both ends
+  double confining_pressure = 0;   ///< of the jacket on the specimen
+  std::array<double, 4> cracks{};  ///< intra tension, intra shear, inter tension, inter shear
   Ledger ledger;
   [[nodiscard]] double volumetric_strain() const { return axial_strain + 2 * lateral_strain; }
 };
@@ -48,14 +48,14 @@ class StrainGauge {
 
 /// Characteristic values of a curve; stresses in Pa. Absent where the curve does not have them.
 struct Characteristics {
-  std::size_t peak = 0;                      ///< row of the largest stress
-  std::optional<double> young_modulus;       ///< least squares between 10 and 30 % of the peak
-  std::optional<double> poisson_ratio;       ///< secant at half the peak (compression)
-  std::optional<std::size_t> initiation_stiffness;   ///< row: axial stiffness leaves its early plateau
-  std::optional<double> stress_at_strain;    ///< at 0.1 % axial strain
-  std::optional<std::size_t> initiation_cracks;      ///< row: 1 % of the cracks present at the peak
-  std::optional<std::size_t> initiation_volume;      ///< row: reversal of the crack volumetric strain
-  std::optional<std::size_t> damage;         ///< row: largest volumetric strain before the peak
+  std::size_t peak = 0;                             ///< row of the largest stress
+  std::optional<double> young_modulus;              ///< least squares between 10 and 30 % of the peak
+  std::optional<double> poisson_ratio;              ///< secant at half the peak (compression)
+  std::optional<std::size_t> initiation_stiffness;  ///< row: axial stiffness leaves its early plateau
+  std::optional<double> stress_at_strain;           ///< at 0.1 % axial strain
+  std::optional<std::size_t> initiation_cracks;     ///< row: 1 % of the cracks present at the peak
+  std::optional<std::size_t> initiation_volume;     ///< row: reversal of the crack volumetric strain
+  std::optional<std::size_t> damage;                ///< row: largest volumetric strain before the peak
 };
 
 /// `departure`: share by which the axial stiffness must leave its plateau (mean over 10 to 25 % of the peak). Shares of the

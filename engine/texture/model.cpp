@@ -29,7 +29,7 @@ std::string word(double value) {
 struct Variant {
   double aspect_ratio = 1, dip = 0, seed_scale = 1;  ///< -, rad, -
   std::string growth, only_mineral;
-  double confining_pressure = 0;                     ///< Pa
+  double confining_pressure = 0;  ///< Pa
   std::int64_t seed = 1;
   friend bool operator==(const Variant&, const Variant&) = default;
 };
@@ -47,28 +47,39 @@ CaseSpec make_case(const Scenario& base, const std::string& test, const Variant&
   const double dip = tidy(v.dip * degrees), pressure = tidy(v.confining_pressure * 1e-6);
   const bool one_mineral = !v.only_mineral.empty();
   CaseSpec spec{test + "_" + (one_mineral ? underlined(v.only_mineral) : "ar_" + word(v.aspect_ratio)),
-                base.with("texture.aspect_ratio", v.aspect_ratio), {}, {}};
-  spec.scenario = spec.scenario.with("texture.seed_scale", v.seed_scale).with("texture.growth", v.growth)
-                      .with("texture.dip", v.dip).with("texture.only_mineral", v.only_mineral)
-                      .with("compression.confining_pressure", v.confining_pressure).with("seed", v.seed);
+                base.with("texture.aspect_ratio", v.aspect_ratio),
+                {},
+                {}};
+  spec.scenario = spec.scenario.with("texture.seed_scale", v.seed_scale)
+                      .with("texture.growth", v.growth)
+                      .with("texture.dip", v.dip)
+                      .with("texture.only_mineral", v.only_mineral)
+                      .with("compression.confining_pressure", v.confining_pressure)
+                      .with("seed", v.seed);
   if (!base.reals("sweep.dip").empty() || v.dip != 0) spec.id += "_dip_" + word(dip);
   if (pressure > 0) spec.id += "_sigma3_" + word(pressure);
   if (v.seed_scale != base.real("texture.seed_scale")) spec.id += "_seed_scale_" + word(v.seed_scale);
   if (v.growth != base.text("texture.growth")) spec.id += "_" + v.growth;
   if (v.seed != static_cast<std::int64_t>(base.seed())) spec.id += fmt::format("_seed_{}", v.seed);
-  const std::vector<std::string> prefixes = {"seed", "specimen.", "packing.", "mineral[", "interaction.",
-                                             "texture.", "solver.", "measure.", test + "."};
+  const std::vector<std::string> prefixes = {"seed",     "specimen.", "packing.", "mineral[", "interaction.",
+                                             "texture.", "solver.",   "measure.", test + "."};
   spec.content = fmt::format("model = grain_texture\nphysics = {}\ntest = {}\n{}", physics_version, test,
                              spec.scenario.canonical(prefixes));
-  spec.parameters = {{"test", test},           {"aspect_ratio", v.aspect_ratio}, {"dip", dip},
-                     {"seed_scale", v.seed_scale}, {"growth", v.growth},         {"mineral", v.only_mineral},
-                     {"confining_pressure_MPa", pressure}, {"seed", static_cast<double>(v.seed)}};
+  spec.parameters = {{"test", test},
+                     {"aspect_ratio", v.aspect_ratio},
+                     {"dip", dip},
+                     {"seed_scale", v.seed_scale},
+                     {"growth", v.growth},
+                     {"mineral", v.only_mineral},
+                     {"confining_pressure_MPa", pressure},
+                     {"seed", static_cast<double>(v.seed)}};
   return spec;
 }
 
 TestKind kind_of(const std::string& test) {
   return test == "compression" ? TestKind::compression
-                               : test == "genesis" ? TestKind::genesis : TestKind::direct_tension;
+         : test == "genesis"   ? TestKind::genesis
+                               : TestKind::direct_tension;
 }
 
 std::vector<double> swept(const Scenario& s, const std::string& sweep, const std::string& single) {
@@ -87,7 +98,8 @@ std::vector<Variant> variants_of(const Scenario& s) {
   };
   for (const char* sweep : {"sweep.aspect_ratio", "sweep.dip", "sweep.confining_pressure", "sweep.mineral"}) {
     const bool empty = std::string_view(sweep) == "sweep.mineral" ? s.texts(sweep).empty() : s.reals(sweep).empty();
-    if (s.given(sweep) && empty) throw s.error(sweep, "the list is empty", "give at least one value, or leave the key out");
+    if (s.given(sweep) && empty)
+      throw s.error(sweep, "the list is empty", "give at least one value, or leave the key out");
   }
   const auto repeats = s.integer("repeats");
   const auto add_repeats = [&](Variant v, const std::string& key) {
@@ -163,12 +175,13 @@ LoadingTest load(const Specimen& specimen, const Settings& settings, const CaseS
     test.set_threads(threads());
     test.advance();
     if (test.history().empty()) {
-      context.report({"confining pressure", test.assembly().step(), 0, 0, spec.scenario.real("compression.confining_pressure")});
+      context.report(
+          {"confining pressure", test.assembly().step(), 0, 0, spec.scenario.real("compression.confining_pressure")});
       continue;
     }
     const HistoryRow& row = test.history().back();
-    context.report({compression ? "compression" : "direct tension", static_cast<std::int64_t>(row.step), test.fraction(),
-                    row.platen_strain, row.axial_stress});
+    context.report({compression ? "compression" : "direct tension", static_cast<std::int64_t>(row.step),
+                    test.fraction(), row.platen_strain, row.axial_stress});
   }
   return test;
 }

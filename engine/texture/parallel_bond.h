@@ -50,9 +50,9 @@ DEM_INLINE auto breaks(const Motion<V>& m, const ParallelBond<V>& b) {
 /// The linear part: its force on particle 2, the new slip (global frame) and the heat of the slip.
 template <class V>
 struct LinearPart {
-  Triple<V> force;   ///< N
-  Triple<V> shear;   ///< elastic shear displacement that is left, m
-  V heat;            ///< J: the mean friction before and after the step times the slip
+  Triple<V> force;  ///< N
+  Triple<V> shear;  ///< elastic shear displacement that is left, m
+  V heat;           ///< J: the mean friction before and after the step times the slip
   decltype(V{} > V{}) slipped;
 };
 

@@ -7,17 +7,17 @@ namespace dem::texture {
 /// The material group of Table 4.
 struct Mineral {
   std::string name;
-  double share = 0;             ///< C_m
+  double share = 0;                           ///< C_m
   double diameter_min = 0, diameter_max = 0;  ///< of grain seeds, m
-  double density = 0;           ///< kg/m^3
-  double modulus = 0;           ///< E_c, Pa
-  double stiffness_ratio = 0;   ///< k_c
-  double friction = 0;          ///< mu_c
-  double bond_modulus = 0;      ///< E_b, Pa
-  double bond_stiffness_ratio = 0;  ///< k_b
-  double tensile_strength = 0;  ///< sigma_t,b, Pa
-  double cohesion = 0;          ///< C_b, Pa
-  double friction_angle = 0;    ///< phi_b, rad
+  double density = 0;                         ///< kg/m^3
+  double modulus = 0;                         ///< E_c, Pa
+  double stiffness_ratio = 0;                 ///< k_c
+  double friction = 0;                        ///< mu_c
+  double bond_modulus = 0;                    ///< E_b, Pa
+  double bond_stiffness_ratio = 0;            ///< k_b
+  double tensile_strength = 0;                ///< sigma_t,b, Pa
+  double cohesion = 0;                        ///< C_b, Pa
+  double friction_angle = 0;                  ///< phi_b, rad
 };
 
 /// The material-interaction group of Table 4: attenuation on grain boundaries.
@@ -32,8 +32,8 @@ struct Interaction {
 
 /// Parameters of one contact group.
 struct ContactGroup {
-  double modulus = 0, stiffness_ratio = 1, friction = 0;   ///< linear part
-  double bond_modulus = 0, bond_stiffness_ratio = 1;       ///< bond
+  double modulus = 0, stiffness_ratio = 1, friction = 0;  ///< linear part
+  double bond_modulus = 0, bond_stiffness_ratio = 1;      ///< bond
   double tensile_strength = 0, cohesion = 0, friction_angle = 0;
 };
 

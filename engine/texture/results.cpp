@@ -9,8 +9,8 @@
 namespace dem::texture {
 namespace {
 
-constexpr double residual_limit = 1e-2;     // of max(W, 1e-2 W_peak)
-constexpr double imbalance_limit = 0.01;    // difference of the two ends over the peak stress, root mean square
+constexpr double residual_limit = 1e-2;   // of max(W, 1e-2 W_peak)
+constexpr double imbalance_limit = 0.01;  // difference of the two ends over the peak stress, root mean square
 constexpr double servo_limit = 0.01;
 constexpr double mega = 1e-6, giga = 1e-9;
 
@@ -86,7 +86,8 @@ Table contact_table(const Specimen& specimen) {
 
 // Axial strain at a step, from the history around it.
 double strain_at(const std::vector<HistoryRow>& h, double step) {
-  const auto after = std::lower_bound(h.begin(), h.end(), step, [](const HistoryRow& r, double s) { return r.step < s; });
+  const auto after =
+      std::lower_bound(h.begin(), h.end(), step, [](const HistoryRow& r, double s) { return r.step < s; });
   if (after == h.begin()) return h.front().axial_strain;
   if (after == h.end()) return h.back().axial_strain;
   const auto before = after - 1;
@@ -160,7 +161,8 @@ Table history_table(const std::vector<HistoryRow>& h) {
 double cracks_in(const HistoryRow& r) { return r.cracks[0] + r.cracks[1] + r.cracks[2] + r.cracks[3]; }
 
 // Named moments, each with the nearest kept frame.
-void add_snapshots(Record& record, const LoadingTest& test, const Characteristics& c, bool compression, std::size_t end) {
+void add_snapshots(Record& record, const LoadingTest& test, const Characteristics& c, bool compression,
+                   std::size_t end) {
   const std::vector<HistoryRow>& h = test.history();
   std::vector<std::pair<std::string, std::size_t>> moments;
   const auto stress_row = [&](double stress) {
@@ -230,7 +232,8 @@ void add_specimen_results(Record& record, const Specimen& specimen, const Settin
     all += v;
   }
   const auto name = [&](std::int32_t m) { return words(settings.minerals[static_cast<std::size_t>(m)].name); };
-  for (std::size_t m = 0; m < volume.size(); ++m) put("mineral_share." + name(static_cast<std::int32_t>(m)), volume[m] / all);
+  for (std::size_t m = 0; m < volume.size(); ++m)
+    put("mineral_share." + name(static_cast<std::int32_t>(m)), volume[m] / all);
   for (const auto& [pair, count] : intra) put("contact_share.intra_" + name(pair.first), count / contacts);
   for (const auto& [pair, count] : inter) {
     put("contact_share.inter_" + name(pair.first) + "_" + name(pair.second), count / contacts);
@@ -260,9 +263,10 @@ Record make_specimen_record(const Specimen& specimen, const Settings& settings) 
   constexpr double limit = 5e-3;
   const double wanted = settings.packing.pressure;
   const double departure = std::abs(specimen.packing.pressure / wanted - 1);
-  record.checks.push_back({"packing_pressure", departure, limit, departure <= limit,
-                           "Departure of the wall pressure of the packing at rest from the material pressure asked for, as a "
-                           "share of it."});
+  record.checks.push_back(
+      {"packing_pressure", departure, limit, departure <= limit,
+       "Departure of the wall pressure of the packing at rest from the material pressure asked for, as a "
+       "share of it."});
   add_specimen_tables(record, specimen, settings);
   return record;
 }
@@ -277,7 +281,10 @@ Record make_record(const Specimen& specimen, const Settings& settings, const Loa
   const auto put = [&](const std::string& name, double value) { record.results.emplace_back(name, value); };
   if (c.young_modulus) put("young_modulus_GPa", *c.young_modulus * giga);
   if (c.poisson_ratio) put("poisson_ratio", *c.poisson_ratio);
-  put(!compression ? "tensile_strength_MPa" : confining > 0 ? "confined_strength_MPa" : "ucs_MPa", h[c.peak].axial_stress * mega);
+  put(!compression    ? "tensile_strength_MPa"
+      : confining > 0 ? "confined_strength_MPa"
+                      : "ucs_MPa",
+      h[c.peak].axial_stress * mega);
   put("peak_strain", h[c.peak].axial_strain);
   if (settings.follow > 0 && compression) {
     // Mean over the last twentieth of the strain.
@@ -297,7 +304,8 @@ Record make_record(const Specimen& specimen, const Settings& settings, const Loa
   if (compression && c.initiation_cracks) {
     put("crack_initiation_MPa.one_percent_of_cracks", h[*c.initiation_cracks].axial_stress * mega);
   }
-  if (c.initiation_volume) put("crack_initiation_MPa.crack_volumetric_strain", h[*c.initiation_volume].axial_stress * mega);
+  if (c.initiation_volume)
+    put("crack_initiation_MPa.crack_volumetric_strain", h[*c.initiation_volume].axial_stress * mega);
   if (c.damage) {
     put("crack_damage_MPa", h[*c.damage].axial_stress * mega);
     put("crack_damage_strain", h[*c.damage].axial_strain);
@@ -336,17 +344,19 @@ Record make_record(const Specimen& specimen, const Settings& settings, const Loa
   put("fresh_contacts", static_cast<double>(test.assembly().fresh_contacts()));
   put("time_step_s", test.assembly().time_step());
 
-  record.checks.push_back({"energy_residual", residual, residual_limit, residual <= residual_limit,
-                           "Largest residual of the energy account over max(W, 1 % of the largest W), W the work of the "
-                           "platens or grips, over all samples."});
+  record.checks.push_back(
+      {"energy_residual", residual, residual_limit, residual <= residual_limit,
+       "Largest residual of the energy account over max(W, 1 % of the largest W), W the work of the "
+       "platens or grips, over all samples."});
   record.checks.push_back({"equilibrium", imbalance, imbalance_limit, imbalance <= imbalance_limit,
                            "Difference between the stresses at the two ends, root mean square of the samples up to the "
                            "peak, over the peak stress."});
 
   if (confining > 0) {
-    record.checks.push_back({"servo", servo, servo_limit, servo <= servo_limit,
-                             "Largest departure of the confining pressure from its set value, as a share of it, over all "
-                             "samples to the end of the test."});
+    record.checks.push_back(
+        {"servo", servo, servo_limit, servo <= servo_limit,
+         "Largest departure of the confining pressure from its set value, as a share of it, over all "
+         "samples to the end of the test."});
   }
 
   add_specimen_tables(record, specimen, settings);

@@ -73,7 +73,9 @@ AssemblyInput assembly_input(const Specimen& specimen, const Settings& settings)
   } else {
     const double thickness = settings.grip * height;
     for (const Vec3& p : input.position) {
-      input.grip.push_back(p[2] < thickness ? std::int8_t{1} : p[2] > height - thickness ? std::int8_t{2} : std::int8_t{0});
+      input.grip.push_back(p[2] < thickness            ? std::int8_t{1}
+                           : p[2] > height - thickness ? std::int8_t{2}
+                                                       : std::int8_t{0});
     }
   }
   return input;

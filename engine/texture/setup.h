@@ -22,21 +22,21 @@ struct Settings {
   GrowthRule growth = GrowthRule::most_contacts;
   double seed_scale = 1;
   JointModulus joint_modulus = JointModulus::sum;
-  bool same_mineral_boundaries = true;   ///< grains of one mineral meet in parallel bonds too
-  bool one_mineral = false;              ///< the specimen is of one mineral alone, flat joints throughout
+  bool same_mineral_boundaries = true;  ///< grains of one mineral meet in parallel bonds too
+  bool one_mineral = false;             ///< the specimen is of one mineral alone, flat joints throughout
   double damping = 0.7;
   double time_step_factor = 0.8;
-  double rate = 1e-7;                    ///< strain a step
-  double ramp_strain = 2e-5;             ///< platens or grips reach their speed over this strain
-  double stop = 0.8;                     ///< the test ends at this share of the peak, after it
-  double strain_limit = 3;               ///< or at this multiple of the strain of the peak (compression)
-  double follow = 0;                     ///< a compression goes on after its end to this multiple of the strain of the peak
-  double confining_pressure = 0;         ///< Pa
-  double confining_step = 5e3;           ///< Pa a step, while the confining pressure is raised
-  double sample_strain = 1e-5;           ///< between samples
-  double grip = 0.05;                    ///< thickness of a gripped disc over the height
-  double gauge = 0.6;                    ///< length of the strain gauge over the height
-  double stiffness_departure = 0.02;     ///< of the axial stiffness at crack initiation
+  double rate = 1e-7;             ///< strain a step
+  double ramp_strain = 2e-5;      ///< platens or grips reach their speed over this strain
+  double stop = 0.8;              ///< the test ends at this share of the peak, after it
+  double strain_limit = 3;        ///< or at this multiple of the strain of the peak (compression)
+  double follow = 0;              ///< a compression goes on after its end to this multiple of the strain of the peak
+  double confining_pressure = 0;  ///< Pa
+  double confining_step = 5e3;    ///< Pa a step, while the confining pressure is raised
+  double sample_strain = 1e-5;    ///< between samples
+  double grip = 0.05;             ///< thickness of a gripped disc over the height
+  double gauge = 0.6;             ///< length of the strain gauge over the height
+  double stiffness_departure = 0.02;  ///< of the axial stiffness at crack initiation
 };
 
 /// A specimen in the order of the solver.
@@ -44,7 +44,7 @@ struct Specimen {
   Packing packing;
   GrainSeeds seeds;
   GrainMap grains;
-  std::vector<BondSpec> bonds;   ///< one for each contact of the packing, in its order
+  std::vector<BondSpec> bonds;  ///< one for each contact of the packing, in its order
 };
 
 /// Genesis, growth and contact groups (steps 1 to 4), reordered for the solver.

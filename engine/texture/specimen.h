@@ -22,10 +22,10 @@ struct Packing {
   std::vector<Vec3> position;
   std::vector<double> radius;
   std::vector<std::array<std::int32_t, 2>> contacts;  ///< i < j, sorted; pairs that touch: distance <= r_i + r_j
-  double pressure = 0;      ///< mean wall pressure, Pa
-  double coordination = 0;  ///< 2 contacts / particles
-  double porosity = 0;      ///< 1 - sphere volume / vessel volume
-  double radius_scale = 0;  ///< final radii over drawn radii
+  double pressure = 0;                                ///< mean wall pressure, Pa
+  double coordination = 0;                            ///< 2 contacts / particles
+  double porosity = 0;                                ///< 1 - sphere volume / vessel volume
+  double radius_scale = 0;                            ///< final radii over drawn radii
   int floaters_removed = 0;
 };
 
@@ -52,18 +52,19 @@ struct GrainShape {
 
 /// The grain of each particle, and how it came by it.
 struct GrainMap {
-  std::vector<std::int32_t> grain;         ///< index into GrainSeeds
+  std::vector<std::int32_t> grain;  ///< index into GrainSeeds
   std::vector<std::int32_t> mineral;
-  std::vector<std::int32_t> growth_round;  ///< 0: masked by an ellipsoid, n: claimed in round n of growth ("gap particle")
+  std::vector<std::int32_t>
+      growth_round;  ///< 0: masked by an ellipsoid, n: claimed in round n of growth ("gap particle")
 };
 
 struct PackingSettings {
   Cylinder vessel;
-  double radius_min = 0;         ///< m
-  double radius_ratio = 1.66;    ///< R_max / R_min
-  double modulus = 0;            ///< E_pack, Pa: kn = E_pack pi r^2 / L
-  double pressure = 0;           ///< material pressure, Pa (0.01 E_pack)
-  double porosity = 0.3325;      ///< of the cloud as drawn: sets the number of particles
+  double radius_min = 0;       ///< m
+  double radius_ratio = 1.66;  ///< R_max / R_min
+  double modulus = 0;          ///< E_pack, Pa: kn = E_pack pi r^2 / L
+  double pressure = 0;         ///< material pressure, Pa (0.01 E_pack)
+  double porosity = 0.3325;    ///< of the cloud as drawn: sets the number of particles
   std::uint64_t seed = 1;
 };
 

@@ -47,8 +47,8 @@ render::Colour share_colour(std::size_t index) {
   return render::palette(order[index % order.size()]);
 }
 
-render::Chart ledger_chart(const dem::Table& history, const std::string& x_column, const std::string& x_title, double x_factor,
-                           std::pair<double, std::string> unit) {
+render::Chart ledger_chart(const dem::Table& history, const std::string& x_column, const std::string& x_title,
+                           double x_factor, std::pair<double, std::string> unit) {
   const auto terms = ledger_terms(history);
   const auto x = scaled(history.real(x_column), x_factor);
   const auto work = work_of(history, terms);
@@ -63,8 +63,12 @@ render::Chart ledger_chart(const dem::Table& history, const std::string& x_colum
     base = band.high;
     chart.bands.push_back(std::move(band));
   }
-  chart.series.push_back({.label = "Work of the platens", .x = x, .y = scaled(work, unit.first), .colour = {0, 0, 0},
-                          .width = 1.8, .y_error = {}});
+  chart.series.push_back({.label = "Work of the platens",
+                          .x = x,
+                          .y = scaled(work, unit.first),
+                          .colour = {0, 0, 0},
+                          .width = 1.8,
+                          .y_error = {}});
   chart.x.title = x_title;
   chart.left.title = "Energy (" + unit.second + ")";
   chart.legend = render::Chart::Legend::top_left;
@@ -122,8 +126,9 @@ std::string shares_alt(const dem::Table& history) {
 FigureContent energy_figure(const StudyResult& study, std::string_view test, const std::vector<SeriesCase>& cases,
                             const std::string& x_column, const std::string& x_title, double x_factor) {
   FigureContent content;
-  content.statement = "The paper gives no energies. The account is kept because a simulation whose energies do not add up "
-                      "cannot be trusted.";
+  content.statement =
+      "The paper gives no energies. The account is kept because a simulation whose energies do not add up "
+      "cannot be trusted.";
   if (auto missing = missing_cases(study, test)) content.panels.push_back(*missing);
   double most = 0;
   std::vector<const SeriesCase*> kept;
@@ -144,8 +149,11 @@ FigureContent energy_figure(const StudyResult& study, std::string_view test, con
     render::Chart chart = ledger_chart(history, x_column, x_title, x_factor, energy_unit(most));
     const bool explained = item != kept.front() && ledger_labels(*item) == ledger_labels(*kept.front());
     if (explained) chart.legend = render::Chart::Legend::none;
-    content.panels.push_back({.id = item->id, .caption = item->label + (explained ? "; colours as at " + kept.front()->label + "." : "."),
-                              .alt = item->label + ". " + shares_alt(history), .content = std::move(chart)});
+    content.panels.push_back(
+        {.id = item->id,
+         .caption = item->label + (explained ? "; colours as at " + kept.front()->label + "." : "."),
+         .alt = item->label + ". " + shares_alt(history),
+         .content = std::move(chart)});
     render::Series series = relative_residual(history, x_column, x_factor);
     series.label = item->label;
     series.colour = item->colour;
@@ -157,7 +165,8 @@ FigureContent energy_figure(const StudyResult& study, std::string_view test, con
   if (kept.empty()) return content;
   if (!residuals.series.empty()) {
     if (std::isfinite(limit)) {
-      residuals.marks.push_back({.kind = render::Mark::Kind::horizontal, .x = 0, .y = limit, .label = "limit", .colour = {0.64, 0.15, 0.1}});
+      residuals.marks.push_back(
+          {.kind = render::Mark::Kind::horizontal, .x = 0, .y = limit, .label = "limit", .colour = {0.64, 0.15, 0.1}});
     }
     residuals.x.title = x_title;
     residuals.left.title = "|Residual| / work";
@@ -169,19 +178,23 @@ FigureContent energy_figure(const StudyResult& study, std::string_view test, con
     residuals.legend = render::Chart::Legend::bottom_right;
     residuals.width = panel_width;
     residuals.height = panel_height;
-    content.panels.push_back({.id = "residual", .caption = "Residual of the ledger against its limit; work is taken as at least 1 % of its largest value.",
-                              .alt = "Largest residual " + number(worst, 2) + " of the work, limit " + number(limit, 2) + ".",
-                              .content = residuals});
+    content.panels.push_back(
+        {.id = "residual",
+         .caption = "Residual of the ledger against its limit; work is taken as at least 1 % of its largest value.",
+         .alt = "Largest residual " + number(worst, 2) + " of the work, limit " + number(limit, 2) + ".",
+         .content = residuals});
   }
-  content.finding = fmt::format("{} The largest residual is {} of the work{}.", shares_alt(kept.front()->record->table("history")),
-                                number(worst, 2), std::isfinite(limit) ? " (limit " + number(limit, 2) + ")" : "");
+  content.finding =
+      fmt::format("{} The largest residual is {} of the work{}.", shares_alt(kept.front()->record->table("history")),
+                  number(worst, 2), std::isfinite(limit) ? " (limit " + number(limit, 2) + ")" : "");
   return content;
 }
 
 namespace texture {
 
 FigureContent energy_compression(const StudyResult& study) {
-  return energy_figure(study, test_compression, swept(study, test_compression), "axial_strain", "Axial strain (%)", 100);
+  return energy_figure(study, test_compression, swept(study, test_compression), "axial_strain", "Axial strain (%)",
+                       100);
 }
 
 FigureContent energy_tension(const StudyResult& study) {

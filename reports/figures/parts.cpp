@@ -20,7 +20,8 @@ bool has_parameter(const dem::Record& record, std::string_view name) {
 // Equal in all parameters but those named.
 bool alike(const dem::Record& a, const dem::Record& b, std::initializer_list<std::string_view> but) {
   return std::ranges::all_of(a.parameters, [&](const auto& mine) {
-    return std::ranges::find(but, mine.first) != but.end() || std::ranges::find(b.parameters, mine) != b.parameters.end();
+    return std::ranges::find(but, mine.first) != but.end() ||
+           std::ranges::find(b.parameters, mine) != b.parameters.end();
   });
 }
 
@@ -45,8 +46,13 @@ std::vector<SeriesCase> series_of(const StudyResult& study, std::string_view tes
       same->repeats.push_back(one.record);
       continue;
     }
-    cases.push_back({one.record, value, fmt::format("{} {:.6g}{}", axis.name, value, axis.unit),
-                     fmt::format("{}_{}", axis.id, id_part(value)), {}, {}, {one.record}});
+    cases.push_back({one.record,
+                     value,
+                     fmt::format("{} {:.6g}{}", axis.name, value, axis.unit),
+                     fmt::format("{}_{}", axis.id, id_part(value)),
+                     {},
+                     {},
+                     {one.record}});
   }
   std::ranges::stable_sort(cases, {}, &SeriesCase::value);
   constexpr std::array lines{render::Line::solid, render::Line::dash, render::Line::dash_dot, render::Line::dot};
@@ -106,24 +112,29 @@ std::optional<LineFit> trend_of(const std::vector<SeriesCase>& cases, const Meas
   return fit_line(x, y);
 }
 
-std::string trend_words(const std::vector<SeriesCase>& cases, const Measure& value, std::string_view unit, const Axis& axis) {
+std::string trend_words(const std::vector<SeriesCase>& cases, const Measure& value, std::string_view unit,
+                        const Axis& axis) {
   const auto fit = trend_of(cases, value);
   if (!fit) return {};
   const double slope = fit->slope.value;
-  const std::string of = (unit.empty() || unit == "°" ? std::string(unit) : " " + std::string(unit)) + " per " + std::string(axis.step);
+  const std::string of =
+      (unit.empty() || unit == "°" ? std::string(unit) : " " + std::string(unit)) + " per " + std::string(axis.step);
   if (!fit->slope.has_interval()) {
     return fmt::format("{} by {}{} between two points", slope < 0 ? "falls" : "rises", number(std::abs(slope), 2), of);
   }
-  const std::string interval = fmt::format("95 % interval {} to {}, p = {}", number(fit->slope.low, 2), number(fit->slope.high, 2),
-                                           fit->p_value < 0.001 ? "0.001 or less" : number(fit->p_value, 2));
-  if (fit->p_value > 0.05) return fmt::format("has no trend that scatter does not hide: slope {}{} ({})", number(slope, 2), of, interval);
+  const std::string interval =
+      fmt::format("95 % interval {} to {}, p = {}", number(fit->slope.low, 2), number(fit->slope.high, 2),
+                  fit->p_value < 0.001 ? "0.001 or less" : number(fit->p_value, 2));
+  if (fit->p_value > 0.05)
+    return fmt::format("has no trend that scatter does not hide: slope {}{} ({})", number(slope, 2), of, interval);
   return fmt::format("{} by {}{} ({})", slope < 0 ? "falls" : "rises", number(std::abs(slope), 2), of, interval);
 }
 
 std::string estimate_text(const Estimate& estimate, int digits, bool in_table) {
   const std::string value = number(estimate.value, digits);
   if (!estimate.has_interval()) return in_table ? value : value + " (no interval from so few points)";
-  return fmt::format("{} ({}{} to {})", value, in_table ? "" : "95 % interval ", number(estimate.low, digits), number(estimate.high, digits));
+  return fmt::format("{} ({}{} to {})", value, in_table ? "" : "95 % interval ", number(estimate.low, digits),
+                     number(estimate.high, digits));
 }
 
 std::optional<Panel> missing_cases(const StudyResult& study, std::string_view test) {
@@ -187,8 +198,7 @@ double result_or_nan(const dem::Record& record, std::string_view name) {
   return record.has_result(name) ? record.result(name) : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::string by_case(const std::vector<SeriesCase>& cases, const Measure& value,
-                    int digits, std::string_view unit) {
+std::string by_case(const std::vector<SeriesCase>& cases, const Measure& value, int digits, std::string_view unit) {
   std::vector<std::string> items;
   for (const SeriesCase& item : cases) {
     const double v = spread_of(item, value).mean;
@@ -198,7 +208,8 @@ std::string by_case(const std::vector<SeriesCase>& cases, const Measure& value,
     items.clear();
     for (const SeriesCase& item : cases) {
       const double v = spread_of(item, value).mean;
-      if (std::isfinite(v)) items.push_back((digits > 0 ? number(v, digits) : count(std::round(v))) + " (" + item.label + ")");
+      if (std::isfinite(v))
+        items.push_back((digits > 0 ? number(v, digits) : count(std::round(v))) + " (" + item.label + ")");
     }
   }
   return items.empty() ? "not measured" : listed(items) + (unit.empty() ? "" : " " + std::string(unit));

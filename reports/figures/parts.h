@@ -16,9 +16,9 @@ namespace reports {
 /// A case in a series: its record, its place on the swept axis and how it looks in every chart.
 struct SeriesCase {
   const dem::Record* record = nullptr;
-  double value = 0;        ///< of the swept parameter
-  std::string label;       ///< "AR 2"
-  std::string id;          ///< suffix for panels: "ar_2"
+  double value = 0;   ///< of the swept parameter
+  std::string label;  ///< "AR 2"
+  std::string id;     ///< suffix for panels: "ar_2"
   render::Colour colour;
   render::Line line = render::Line::solid;
   std::vector<const dem::Record*> repeats;  ///< of every seed, this record's first
@@ -56,7 +56,8 @@ render::Series means(const std::vector<SeriesCase>& cases, const Measure& value)
 /// The straight line through a measure of all cases and repeats against the swept parameter.
 std::optional<LineFit> trend_of(const std::vector<SeriesCase>& cases, const Measure& value);
 /// "rises by 1.2 MPa per degree of dip (95 % interval 0.4 to 2, p = 0.01)", or that scatter hides it; "" with one case.
-std::string trend_words(const std::vector<SeriesCase>& cases, const Measure& value, std::string_view unit, const Axis& axis);
+std::string trend_words(const std::vector<SeriesCase>& cases, const Measure& value, std::string_view unit,
+                        const Axis& axis);
 /// "29.1 (95 % interval 27 to 31.2)", shorter in tables: "29.1 (27 to 31.2)".
 std::string estimate_text(const Estimate& estimate, int digits, bool in_table = false);
 
@@ -68,7 +69,7 @@ void add_missing(FigureContent& content, const StudyResult& study, std::initiali
 
 /// A curve from two columns of a history; points that are not finite are left out.
 struct CurveOf {
-  std::string x, y;               ///< columns
+  std::string x, y;  ///< columns
   double x_factor = 1, y_factor = 1;
 };
 render::Series curve(const dem::Table& history, const CurveOf& of);
@@ -90,7 +91,6 @@ bool is_note(const Panel& panel);
 double result_or_nan(const dem::Record& record, std::string_view name);
 
 /// "206.8, 201.3 and 198.4 MPa", means of repeats, with the labels of the cases when some have no value. `digits` significant ones; 0: a count.
-std::string by_case(const std::vector<SeriesCase>& cases, const Measure& value,
-                    int digits, std::string_view unit);
+std::string by_case(const std::vector<SeriesCase>& cases, const Measure& value, int digits, std::string_view unit);
 
 }  // namespace reports

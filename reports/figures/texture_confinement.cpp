@@ -17,7 +17,8 @@ namespace {
 
 constexpr int half_width = 440, curves_height = 380;
 
-const render::Colour peak_colour = render::palette(0), damage_colour = render::palette(1), initiation_colour = render::palette(2), strain_colour = render::palette(3);
+const render::Colour peak_colour = render::palette(0), damage_colour = render::palette(1),
+                     initiation_colour = render::palette(2), strain_colour = render::palette(3);
 
 double peak_stress(const dem::Record& record) {
   return record.has_result("ucs_MPa") ? record.result("ucs_MPa") : result_or_nan(record, "confined_strength_MPa");
@@ -32,7 +33,8 @@ double common_reach(const std::vector<SeriesCase>& cases) {
   double reach = std::numeric_limits<double>::infinity();
   for (const SeriesCase& item : cases) {
     for (const dem::Record* record : item.repeats) {
-      const auto strain = record->table("history").real("platen_strain"), stress = record->table("history").real("axial_stress");
+      const auto strain = record->table("history").real("platen_strain"),
+                 stress = record->table("history").real("axial_stress");
       if (strain.empty()) continue;
       const auto peak = static_cast<std::size_t>(std::ranges::max_element(stress) - stress.begin());
       reach = std::min(reach, 100 * (strain.back() - strain[peak]));
@@ -44,7 +46,8 @@ double common_reach(const std::vector<SeriesCase>& cases) {
 // Stress over the peak at a strain after it (%): the mean over the tenth of that strain before.
 Measure stress_after_peak(double reach) {
   return [reach](const dem::Record& record) {
-    const auto strain = record.table("history").real("platen_strain"), stress = record.table("history").real("axial_stress");
+    const auto strain = record.table("history").real("platen_strain"),
+               stress = record.table("history").real("axial_stress");
     if (strain.empty()) return std::numeric_limits<double>::quiet_NaN();
     const auto peak = static_cast<std::size_t>(std::ranges::max_element(stress) - stress.begin());
     double sum = 0, count = 0;
@@ -97,8 +100,13 @@ render::Chart against_strain(const std::vector<SeriesCase>& cases, const Column&
 }
 
 void mark_initiation(render::Chart& chart, const std::vector<SeriesCase>& cases, const Measure& height) {
-  render::Series marks{.label = "σci by axial stiffness", .x = {}, .y = {}, .colour = {0, 0, 0}, .line = render::Line::none,
-                       .marker = render::Marker::diamond, .y_error = {}};
+  render::Series marks{.label = "σci by axial stiffness",
+                       .x = {},
+                       .y = {},
+                       .colour = {0, 0, 0},
+                       .line = render::Line::none,
+                       .marker = render::Marker::diamond,
+                       .y_error = {}};
   for (const SeriesCase& item : cases) {
     const double strain = 100 * result_or_nan(*item.record, "crack_initiation_strain.axial_stiffness");
     const double y = height(*item.record);
@@ -121,8 +129,15 @@ struct Published {
   [[nodiscard]] double operator()(double sigma_3) const { return hoek_brown(sigma_3, sigma_c, m, s); }
 };
 
-render::Series points(const StrengthPoints& of, const std::string& label, const render::Colour& colour, render::Marker marker) {
-  return {.label = label, .x = of.sigma_3, .y = of.sigma_1, .colour = colour, .line = render::Line::none, .marker = marker, .y_error = {}};
+render::Series points(const StrengthPoints& of, const std::string& label, const render::Colour& colour,
+                      render::Marker marker) {
+  return {.label = label,
+          .x = of.sigma_3,
+          .y = of.sigma_1,
+          .colour = colour,
+          .line = render::Line::none,
+          .marker = marker,
+          .y_error = {}};
 }
 
 render::Chart envelope_chart(const StudyResult& study, const Envelopes& found, const std::vector<double>& tension) {
@@ -136,12 +151,19 @@ render::Chart envelope_chart(const StudyResult& study, const Envelopes& found, c
   chart.series.push_back(points(found.damage, "crack damage", damage_colour, render::Marker::square));
   // The two readings that the paper's text gives: where the stiffness leaves its plateau, and its number, the stress at 0.1 %.
   const Initiation &by_stiffness = found.initiation[0], &by_strain = found.initiation[1];
-  chart.series.push_back(points(by_stiffness.points, "σci by axial stiffness", initiation_colour, render::Marker::triangle));
-  chart.series.push_back(points(by_strain.points, "σci as stress at 0.1 % strain", strain_colour, render::Marker::cross));
+  chart.series.push_back(
+      points(by_stiffness.points, "σci by axial stiffness", initiation_colour, render::Marker::triangle));
+  chart.series.push_back(
+      points(by_strain.points, "σci as stress at 0.1 % strain", strain_colour, render::Marker::cross));
   std::erase_if(chart.series, [](const render::Series& s) { return s.x.empty(); });
   if (!tension.empty()) {
-    render::Series ts{.label = "direct tension", .x = {}, .y = {}, .colour = {0, 0, 0}, .line = render::Line::none,
-                      .marker = render::Marker::diamond, .y_error = {}};
+    render::Series ts{.label = "direct tension",
+                      .x = {},
+                      .y = {},
+                      .colour = {0, 0, 0},
+                      .line = render::Line::none,
+                      .marker = render::Marker::diamond,
+                      .y_error = {}};
     for (const double t : tension) {
       ts.x.push_back(-t);
       ts.y.push_back(0);
@@ -155,17 +177,22 @@ render::Chart envelope_chart(const StudyResult& study, const Envelopes& found, c
     series.line = kind;
     if (!series.x.empty()) chart.series.push_back(series);
   };
-  if (found.peak_fit) line("our fits", peak_colour, render::Line::solid, [&](double x) { return found.peak_fit->at(x); });
+  if (found.peak_fit)
+    line("our fits", peak_colour, render::Line::solid, [&](double x) { return found.peak_fit->at(x); });
   if (found.damage_fit) line("", damage_colour, render::Line::solid, [&](double x) { return found.damage_fit->at(x); });
-  if (by_stiffness.fit) line("", initiation_colour, render::Line::solid, [&](double x) { return by_stiffness.fit->at(x); });
+  if (by_stiffness.fit)
+    line("", initiation_colour, render::Line::solid, [&](double x) { return by_stiffness.fit->at(x); });
   if (by_strain.fit) line("", strain_colour, render::Line::solid, [&](double x) { return by_strain.fit->at(x); });
   // Eq. 11, and Martin's fit to laboratory tests as section 3.3 quotes it.
   const auto published = [&](const char* id) { return study.published_value(id); };
-  const double sigma_c = published("envelope_peak_sigma_c"), intercept = published("initiation_intercept"), slope = published("initiation_slope");
+  const double sigma_c = published("envelope_peak_sigma_c"), intercept = published("initiation_intercept"),
+               slope = published("initiation_slope");
   line("published fits", peak_colour, render::Line::dash, Published{sigma_c, published("envelope_peak_m"), 1});
-  line("", damage_colour, render::Line::dash, Published{sigma_c, published("envelope_damage_m"), published("envelope_damage_s")});
+  line("", damage_colour, render::Line::dash,
+       Published{sigma_c, published("envelope_damage_m"), published("envelope_damage_s")});
   line("", strain_colour, render::Line::dash, [&](double x) { return intercept + slope * x; });
-  line("Martin’s laboratory peak", {0.4, 0.4, 0.4}, render::Line::dot, Published{published("martin_sigma_c"), published("martin_m"), 1});
+  line("Martin’s laboratory peak", {0.4, 0.4, 0.4}, render::Line::dot,
+       Published{published("martin_sigma_c"), published("martin_m"), 1});
   chart.legend = render::Chart::Legend::below;
   chart.width = 640;
   chart.height = 480;
@@ -174,11 +201,12 @@ render::Chart envelope_chart(const StudyResult& study, const Envelopes& found, c
 
 TextTable envelope_table(const StudyResult& study, const Envelopes& found) {
   TextTable table{{"Envelope", "Parameter", "Published", "Ours (95 % interval)", "Points"}, {}};
-  const auto row = [&](const char* envelope, const char* parameter, const char* published, std::string_view name, std::size_t n) {
+  const auto row = [&](const char* envelope, const char* parameter, const char* published, std::string_view name,
+                       std::size_t n) {
     const auto estimate = found.find(name);
     const double value = study.published_value(published);
-    table.rows.push_back({envelope, parameter, std::isfinite(value) ? shortest(value) : "–", estimate ? estimate_text(*estimate, 3, true) : "no fit",
-                          std::to_string(n)});
+    table.rows.push_back({envelope, parameter, std::isfinite(value) ? shortest(value) : "–",
+                          estimate ? estimate_text(*estimate, 3, true) : "no fit", std::to_string(n)});
   };
   row("peak, σc = UCS, s = 1", "m", "envelope_peak_m", "peak.m", found.peak.sigma_1.size());
   row("peak, s = 1", "σc (MPa)", "envelope_peak_sigma_c", "free.sigma_c", found.peak.sigma_1.size());
@@ -197,8 +225,9 @@ TextTable envelope_table(const StudyResult& study, const Envelopes& found) {
 
 FigureContent confinement_curves(const StudyResult& study) {
   FigureContent content;
-  content.statement = "The peak rises with the confining pressure. Crack initiation, where the axial stiffness starts to fluctuate, "
-                      "stays below 0.1 % strain.";
+  content.statement =
+      "The peak rises with the confining pressure. Crack initiation, where the axial stiffness starts to fluctuate, "
+      "stays below 0.1 % strain.";
   const auto cases = confined(study);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
@@ -206,58 +235,80 @@ FigureContent confinement_curves(const StudyResult& study) {
   const std::string strains = by_case(cases, result("crack_initiation_strain.axial_stiffness", 100), 2, "%");
   render::Chart whole = against_strain(cases, {"axial_stress", "Axial stress σ₁ (MPa)", 1e-6}, 1e300);
   whole.left.low = 0;
-  content.panels.push_back({.id = "stress", .caption = "Axial stress against axial strain, from the isotropic state, to the end of the test.",
-                            .alt = "Stress-strain curves; peaks of " + peaks + ".", .content = whole});
+  content.panels.push_back(
+      {.id = "stress",
+       .caption = "Axial stress against axial strain, from the isotropic state, to the end of the test.",
+       .alt = "Stress-strain curves; peaks of " + peaks + ".",
+       .content = whole});
   render::Chart start = against_strain(cases, {"axial_stress", "Axial stress σ₁ (MPa)", 1e-6}, small_strain(cases));
   start.left.low = 0;
   mark_initiation(start, cases, result("crack_initiation_MPa.axial_stiffness"));
-  content.panels.push_back({.id = "start", .caption = "The same at small strains, with crack initiation.",
-                            .alt = "Stress at small strains; crack initiation at strains of " + strains + ".", .content = start});
-  render::Chart stiffness = against_strain(cases, {"axial_stiffness", "Axial stiffness (GPa)", 1e-9}, small_strain(cases));
+  content.panels.push_back({.id = "start",
+                            .caption = "The same at small strains, with crack initiation.",
+                            .alt = "Stress at small strains; crack initiation at strains of " + strains + ".",
+                            .content = start});
+  render::Chart stiffness =
+      against_strain(cases, {"axial_stiffness", "Axial stiffness (GPa)", 1e-9}, small_strain(cases));
   double highest = 0;
   for (const SeriesCase& item : cases) highest = std::max(highest, result_or_nan(*item.record, "young_modulus_GPa"));
   stiffness.left.low = 0;
   if (highest > 0) stiffness.left.high = 1.4 * highest;
   mark_initiation(stiffness, cases, stiffness_at_initiation);
-  content.panels.push_back({.id = "stiffness", .caption = "Axial stiffness (Eq. 9) at small strains, with crack initiation.",
-                            .alt = "Axial stiffness; Young’s moduli of " + by_case(cases, result("young_modulus_GPa"), 3, "GPa") + ".",
-                            .content = stiffness});
-  content.finding = "At " + joined([&] {
-                      std::vector<std::string> labels;
-                      for (const SeriesCase& item : cases) labels.push_back(item.label);
-                      return labels;
-                    }(), ", ") + " the peaks are " + peaks + ", and cracks initiate at strains of " + strains + ".";
+  content.panels.push_back(
+      {.id = "stiffness",
+       .caption = "Axial stiffness (Eq. 9) at small strains, with crack initiation.",
+       .alt = "Axial stiffness; Young’s moduli of " + by_case(cases, result("young_modulus_GPa"), 3, "GPa") + ".",
+       .content = stiffness});
+  content.finding = "At " +
+                    joined(
+                        [&] {
+                          std::vector<std::string> labels;
+                          for (const SeriesCase& item : cases) labels.push_back(item.label);
+                          return labels;
+                        }(),
+                        ", ") +
+                    " the peaks are " + peaks + ", and cracks initiate at strains of " + strains + ".";
   return content;
 }
 
 FigureContent confinement_envelopes(const StudyResult& study) {
   FigureContent content;
-  content.statement = "Hoek-Brown envelopes with σc 206 MPa and m 29, s 1 for the peak, m 16, s 0.6 for crack damage; crack initiation at "
-                      "71.1 MPa + 1.1 σ₃, within the range of laboratories, (0.3 to 0.5) σc + (1 to 1.5) σ₃ (Eq. 12). Points of the flat "
-                      "joint model and of laboratories, which the text does not list, are left out.";
+  content.statement =
+      "Hoek-Brown envelopes with σc 206 MPa and m 29, s 1 for the peak, m 16, s 0.6 for crack damage; crack initiation "
+      "at "
+      "71.1 MPa + 1.1 σ₃, within the range of laboratories, (0.3 to 0.5) σc + (1 to 1.5) σ₃ (Eq. 12). Points of the "
+      "flat "
+      "joint model and of laboratories, which the text does not list, are left out.";
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   const Envelopes found = envelopes_of(study);
   if (found.peak.sigma_3.empty()) return content;
   const auto tension = tensile_strengths(study);
   std::vector<std::string> said;
   if (found.peak_fit) {
-    said.push_back("peak with σc = UCS, " + number(found.ucs, 4) + " MPa, and m " + estimate_text(found.peak_fit->m, 3));
+    said.push_back("peak with σc = UCS, " + number(found.ucs, 4) + " MPa, and m " +
+                   estimate_text(found.peak_fit->m, 3));
   }
   if (found.damage_fit) {
-    said.push_back("crack damage with m " + estimate_text(found.damage_fit->m, 3) + " and s " + estimate_text(found.damage_fit->s, 2));
+    said.push_back("crack damage with m " + estimate_text(found.damage_fit->m, 3) + " and s " +
+                   estimate_text(found.damage_fit->s, 2));
   }
   for (const Initiation* one : {&found.initiation[0], &found.initiation[1]}) {
     if (!one->fit) continue;
-    said.push_back(fmt::format("crack initiation ({}) at {} MPa with a slope of {}", one->name, estimate_text(one->fit->intercept, 3),
-                               estimate_text(one->fit->slope, 2)));
+    said.push_back(fmt::format("crack initiation ({}) at {} MPa with a slope of {}", one->name,
+                               estimate_text(one->fit->intercept, 3), estimate_text(one->fit->slope, 2)));
   }
   const std::string fits = said.empty() ? "too few pressures for a fit" : joined(said, "; ");
-  content.panels.push_back({.id = "", .caption = "Strengths against confining pressure with fitted envelopes; the tensile strength stands at −σ₃.",
-                            .alt = "Peak stresses from " + number(std::ranges::min(found.peak.sigma_1), 3) + " to " +
-                                   number(std::ranges::max(found.peak.sigma_1), 3) + " MPa. Fits: " + fits + ".",
-                            .content = envelope_chart(study, found, tension)});
-  content.panels.push_back({.id = "parameters", .caption = "Parameters of the envelopes, by least squares of σ₁.", .alt = "",
-                            .content = envelope_table(study, found), .per_row = 1});
+  content.panels.push_back(
+      {.id = "",
+       .caption = "Strengths against confining pressure with fitted envelopes; the tensile strength stands at −σ₃.",
+       .alt = "Peak stresses from " + number(std::ranges::min(found.peak.sigma_1), 3) + " to " +
+              number(std::ranges::max(found.peak.sigma_1), 3) + " MPa. Fits: " + fits + ".",
+       .content = envelope_chart(study, found, tension)});
+  content.panels.push_back({.id = "parameters",
+                            .caption = "Parameters of the envelopes, by least squares of σ₁.",
+                            .alt = "",
+                            .content = envelope_table(study, found),
+                            .per_row = 1});
   content.finding = "Fitted: " + fits + ".";
   // Eq. 12: 0.3 to 0.5 of sigma_c, slope 1 to 1.5. Of the four readings only a stress at a set strain has a slope near 1 by itself:
   // it is sigma_3 and the elastic stress of that strain.
@@ -266,8 +317,8 @@ FigureContent confinement_envelopes(const StudyResult& study) {
     if (!one.fit || !std::isfinite(ucs)) continue;
     const double share = one.fit->intercept.value / ucs, slope = one.fit->slope.value;
     const bool inside = share >= 0.3 && share <= 0.5 && slope >= 1 && slope <= 1.5;
-    content.finding += fmt::format(" By {}: {} UCS {} {} σ₃, {} the range of Eq. 12.", one.name, number(share, 2), slope < 0 ? "−" : "+",
-                                   number(std::abs(slope), 2), inside ? "inside" : "outside");
+    content.finding += fmt::format(" By {}: {} UCS {} {} σ₃, {} the range of Eq. 12.", one.name, number(share, 2),
+                                   slope < 0 ? "−" : "+", number(std::abs(slope), 2), inside ? "inside" : "outside");
   }
   return content;
 }
@@ -280,7 +331,8 @@ FigureContent confinement_after_peak(const StudyResult& study) {
   const Measure residual = result("residual_over_peak");
   render::Series series = means(cases, residual);
   if (series.x.empty()) {
-    content.panels.push_back(note_panel("none", "After the peak.", "No test was followed past its peak (compression.follow)."));
+    content.panels.push_back(
+        note_panel("none", "After the peak.", "No test was followed past its peak (compression.follow)."));
     return content;
   }
   series.colour = peak_colour;
@@ -303,10 +355,13 @@ FigureContent confinement_after_peak(const StudyResult& study) {
   chart.width = 600;
   chart.height = 280;
   const std::string ratios = by_case(cases, residual, 2, "");
-  content.panels.push_back({.id = "residual", .caption = "Residual stress over the peak: the mean over the last twentieth of the strain that all tests are followed to, as a multiple of their peak’s; "
-                                       "and the stress at one and the same strain after the peak, as far as the shortest test goes.",
-                            .alt = "Residual over peak " + ratios + "; at " + same_strain + " " + by_case(cases, equal, 2, "") + ".",
-                            .content = chart});
+  content.panels.push_back(
+      {.id = "residual",
+       .caption = "Residual stress over the peak: the mean over the last twentieth of the strain that all tests are "
+                  "followed to, as a multiple of their peak’s; "
+                  "and the stress at one and the same strain after the peak, as far as the shortest test goes.",
+       .alt = "Residual over peak " + ratios + "; at " + same_strain + " " + by_case(cases, equal, 2, "") + ".",
+       .content = chart});
   TextTable servo{{"Confining pressure (MPa)", "Largest error of the servo (%)"}, {}};
   double worst = 0;
   for (const SeriesCase& item : cases) {
@@ -316,8 +371,12 @@ FigureContent confinement_after_peak(const StudyResult& study) {
     servo.rows.push_back({number(item.value), number(error, 2)});
   }
   if (!servo.rows.empty()) {
-    content.panels.push_back({.id = "servo", .caption = "Largest departure of the wall’s pressure from its set value, over the whole test.",
-                              .alt = "", .content = servo, .per_row = 1});
+    content.panels.push_back(
+        {.id = "servo",
+         .caption = "Largest departure of the wall’s pressure from its set value, over the whole test.",
+         .alt = "",
+         .content = servo,
+         .per_row = 1});
   }
   content.finding = "Residual over peak: " + ratios + ".";
   const std::string trend = trend_words(cases, residual, "", confining_axis);

@@ -39,7 +39,8 @@ render::Chart bars_by_class(const std::vector<SeriesCase>& cases) {
     bars.colours.push_back(item.colour);
     std::vector<double> values, errors;
     for (std::size_t k = 0; k <= crack_classes().size(); ++k) {
-      const Spread spread = spread_of(item, k < crack_classes().size() ? number_of(crack_classes()[k]) : Measure(all_of));
+      const Spread spread =
+          spread_of(item, k < crack_classes().size() ? number_of(crack_classes()[k]) : Measure(all_of));
       values.push_back(std::isfinite(spread.mean) ? spread.mean : 0);
       errors.push_back(spread.deviation);
       repeated = repeated || spread.count > 1;
@@ -62,7 +63,8 @@ render::Chart bars_by_class(const std::vector<SeriesCase>& cases) {
 // Lines along the swept parameter: a line a class, and one for all cracks.
 render::Chart lines_by_class(const std::vector<SeriesCase>& cases, const Axis& axis, bool shares) {
   constexpr std::array lines{render::Line::solid, render::Line::dash, render::Line::dash_dot, render::Line::dot};
-  constexpr std::array markers{render::Marker::circle, render::Marker::square, render::Marker::diamond, render::Marker::triangle};
+  constexpr std::array markers{render::Marker::circle, render::Marker::square, render::Marker::diamond,
+                               render::Marker::triangle};
   render::Chart chart;
   chart.x.title = axis.title;
   chart.left.title = shares ? "Share of cracks (%)" : "Number of cracks";
@@ -91,7 +93,8 @@ render::Chart lines_by_class(const std::vector<SeriesCase>& cases, const Axis& a
 
 std::string with_its(const std::vector<SeriesCase>& cases) {
   return std::ranges::any_of(cases, [](const SeriesCase& c) { return c.repeats.size() > 1; })
-             ? " Means of repeats; bars are one standard deviation." : "";
+             ? " Means of repeats; bars are one standard deviation."
+             : "";
 }
 
 std::string crack_alt(const dem::Record& record, std::size_t count, const std::string& what) {
@@ -121,8 +124,7 @@ std::string at_strain(const dem::Table& moment) {
   const std::string strain = moment.attribute("strain");
   const std::string stress = moment.attribute("stress");
   if (strain.empty() || stress.empty()) return {};
-  return fmt::format(", {} % strain, {} MPa", number(100 * std::stod(strain), 3),
-                     number(1e-6 * std::stod(stress), 3));
+  return fmt::format(", {} % strain, {} MPa", number(100 * std::stod(strain), 3), number(1e-6 * std::stod(stress), 3));
 }
 
 // Which pairs of minerals share most of the inter-grain tension cracks among the first `count`.
@@ -189,7 +191,8 @@ std::string discs_note(double scale) {
 
 FigureContent crack_maps(const StudyResult& study) {
   FigureContent content;
-  content.statement = "The failure modes at aspect ratios 1, 2 and 3 look alike; cracks spread through the whole specimen.";
+  content.statement =
+      "The failure modes at aspect ratios 1, 2 and 3 look alike; cracks spread through the whole specimen.";
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   const int per_row = cases.size() <= 3 ? 3 : 4;
@@ -203,11 +206,12 @@ FigureContent crack_maps(const StudyResult& study) {
                               .per_row = per_row});
   }
   for (const SeriesCase& item : cases) {
-    content.panels.push_back({.id = "section_" + item.id,
-                              .caption = "Cracks within half a mean particle diameter of the longitudinal section, over the minerals.",
-                              .alt = "Section at " + item.label + " with the traces of the cracks near it over the minerals.",
-                              .content = section_cracks(*item.record, all_cracks, item.label, 480),
-                              .per_row = per_row});
+    content.panels.push_back(
+        {.id = "section_" + item.id,
+         .caption = "Cracks within half a mean particle diameter of the longitudinal section, over the minerals.",
+         .alt = "Section at " + item.label + " with the traces of the cracks near it over the minerals.",
+         .content = section_cracks(*item.record, all_cracks, item.label, 480),
+         .per_row = per_row});
   }
   std::vector<std::string> totals;
   for (const SeriesCase& item : cases) {
@@ -229,20 +233,30 @@ FigureContent crack_counts(const StudyResult& study) {
   if (cases.empty()) return content;
   const Axis& axis = swept_axis(study);
   std::vector<std::string> parts;
-  for (const CrackClass& one : crack_classes()) parts.push_back(std::string(one.name) + " " + by_case(cases, number_of(one), 0, ""));
+  for (const CrackClass& one : crack_classes())
+    parts.push_back(std::string(one.name) + " " + by_case(cases, number_of(one), 0, ""));
   parts.push_back("all " + by_case(cases, all_of, 0, ""));
   std::vector<std::string> labels, shares;
   for (const SeriesCase& item : cases) labels.push_back(item.label);
-  for (const CrackClass& one : crack_classes()) shares.push_back(std::string(one.name) + " " + by_case(cases, share_of(one), 3, "%"));
+  for (const CrackClass& one : crack_classes())
+    shares.push_back(std::string(one.name) + " " + by_case(cases, share_of(one), 3, "%"));
   const std::string found = "Cracks at " + joined(labels, ", ") + ": " + joined(parts, "; ") + ".";
   if (axis.parameter == "aspect_ratio") {
-    content.panels.push_back({.id = "", .caption = "Cracks at the end of loading, by class and aspect ratio." + with_its(cases),
-                              .alt = found, .content = bars_by_class(cases)});
+    content.panels.push_back({.id = "",
+                              .caption = "Cracks at the end of loading, by class and aspect ratio." + with_its(cases),
+                              .alt = found,
+                              .content = bars_by_class(cases)});
   } else {
-    content.panels.push_back({.id = "numbers", .caption = "Cracks at the end of loading, by class." + with_its(cases), .alt = found,
-                              .content = lines_by_class(cases, axis, false), .per_row = 2});
-    content.panels.push_back({.id = "shares", .caption = "Their shares of all cracks." + with_its(cases),
-                              .alt = joined(shares, "; ") + ".", .content = lines_by_class(cases, axis, true), .per_row = 2});
+    content.panels.push_back({.id = "numbers",
+                              .caption = "Cracks at the end of loading, by class." + with_its(cases),
+                              .alt = found,
+                              .content = lines_by_class(cases, axis, false),
+                              .per_row = 2});
+    content.panels.push_back({.id = "shares",
+                              .caption = "Their shares of all cracks." + with_its(cases),
+                              .alt = joined(shares, "; ") + ".",
+                              .content = lines_by_class(cases, axis, true),
+                              .per_row = 2});
   }
   content.finding = found;
   if (cases.size() > 2 || !with_its(cases).empty()) {
@@ -264,21 +278,24 @@ FigureContent dip_crack_maps(const StudyResult& study) {
 
 FigureContent dip_crack_counts(const StudyResult& study) {
   FigureContent content = crack_counts(study);
-  content.statement = "From dip 0° to 90° cracks within grains tend to get fewer, while tension cracks between grains keep rising.";
+  content.statement =
+      "From dip 0° to 90° cracks within grains tend to get fewer, while tension cracks between grains keep rising.";
   return content;
 }
 
 FigureContent confinement_crack_maps(const StudyResult& study) {
   FigureContent content = crack_maps(study);
-  content.statement = "With confining pressure the number of cracks grows, shear cracks within grains most; failure turns from axial "
-                      "splitting to shear.";
+  content.statement =
+      "With confining pressure the number of cracks grows, shear cracks within grains most; failure turns from axial "
+      "splitting to shear.";
   return content;
 }
 
 FigureContent confinement_crack_counts(const StudyResult& study) {
   FigureContent content = crack_counts(study);
-  content.statement = "The number of tension cracks stays about constant over the confining pressures; number and share of shear "
-                      "cracks rise. The fifth of the published categories is taken for the total.";
+  content.statement =
+      "The number of tension cracks stays about constant over the confining pressures; number and share of shear "
+      "cracks rise. The fifth of the published categories is taken for the total.";
   return content;
 }
 
@@ -286,7 +303,8 @@ FigureContent crack_stages(const StudyResult& study) {
   FigureContent content;
   content.statement =
       "First come tension cracks on grain boundaries, scattered and mostly beside alkali feldspar; tension cracks then "
-      "spread within grains until crack damage; shear within grains follows in unstable growth and crosses whole grains; "
+      "spread within grains until crack damage; shear within grains follows in unstable growth and crosses whole "
+      "grains; "
       "shear on grain boundaries comes after the peak.";
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
@@ -300,25 +318,31 @@ FigureContent crack_stages(const StudyResult& study) {
     if (!moment) continue;
     const std::size_t so_far = cracks_so_far(*moment);
     said.push_back(count(static_cast<double>(so_far)) + " (" + words(stage.moment) + ")");
-    discs.push_back({.id = std::string(stage.moment) + "_discs",
-                     .caption = "All cracks so far as discs in the transparent specimen" + discs_note(scale),
-                     .alt = crack_alt(*base.record, so_far, std::string(stage.name) + ":"),
-                     .content = transparent_cracks(*base.record, so_far, std::string(stage.name) + at_strain(*moment), 340, scale),
-                     .per_row = 5});
-    sections.push_back({.id = std::string(stage.moment) + "_section",
-                        .caption = "Cracks within half a mean particle diameter of the longitudinal section, over the minerals.",
-                        .alt = std::string(stage.name) + ": traces of the cracks near the section, over the minerals.",
-                        .content = section_cracks(*base.record, so_far, std::string(stage.name), 340),
-                        .per_row = 5});
+    discs.push_back(
+        {.id = std::string(stage.moment) + "_discs",
+         .caption = "All cracks so far as discs in the transparent specimen" + discs_note(scale),
+         .alt = crack_alt(*base.record, so_far, std::string(stage.name) + ":"),
+         .content = transparent_cracks(*base.record, so_far, std::string(stage.name) + at_strain(*moment), 340, scale),
+         .per_row = 5});
+    sections.push_back(
+        {.id = std::string(stage.moment) + "_section",
+         .caption = "Cracks within half a mean particle diameter of the longitudinal section, over the minerals.",
+         .alt = std::string(stage.name) + ": traces of the cracks near the section, over the minerals.",
+         .content = section_cracks(*base.record, so_far, std::string(stage.name), 340),
+         .per_row = 5});
   }
   if (discs.empty()) {
-    content.panels.push_back(note_panel("none", "Stages of cracking.", "The record of " + base.record->case_id + " keeps no snapshots."));
+    content.panels.push_back(
+        note_panel("none", "Stages of cracking.", "The record of " + base.record->case_id + " keeps no snapshots."));
     return content;
   }
   content.panels.insert(content.panels.end(), discs.begin(), discs.end());
   content.panels.insert(content.panels.end(), sections.begin(), sections.end());
-  content.panels.push_back({.id = "by_minerals", .caption = "The same by the minerals at their ends.", .alt = "",
-                            .content = cracks_by_minerals(*base.record), .per_row = 1});
+  content.panels.push_back({.id = "by_minerals",
+                            .caption = "The same by the minerals at their ends.",
+                            .alt = "",
+                            .content = cracks_by_minerals(*base.record),
+                            .per_row = 1});
   content.finding = "At " + base.label + ", cracks so far: " + listed(said) + ".";
   const dem::Table* first = snapshot(*base.record, "stable_growth");
   if (first) {

@@ -15,10 +15,12 @@ struct Reading {
   std::string_view id, name, how;
 };
 constexpr std::array readings{
-    Reading{"axial_stiffness", "Axial stiffness", "Eq. 9 leaves its early plateau by the set share (measure.stiffness_departure)"},
+    Reading{"axial_stiffness", "Axial stiffness",
+            "Eq. 9 leaves its early plateau by the set share (measure.stiffness_departure)"},
     Reading{"strain_0_1_percent", "Strain of 0.1 %", "the stress there; the paper's own number"},
     Reading{"one_percent_of_cracks", "One percent of cracks", "as many cracks as 1 % of those at the peak"},
-    Reading{"crack_volumetric_strain", "Crack volumetric strain", "the volumetric strain less its elastic part turns to dilation"}};
+    Reading{"crack_volumetric_strain", "Crack volumetric strain",
+            "the volumetric strain less its elastic part turns to dilation"}};
 
 std::string cell(const Spread& spread, int digits) {
   if (spread.count == 0) return "not found";
@@ -29,8 +31,10 @@ std::string cell(const Spread& spread, int digits) {
 
 FigureContent initiation_readings(const StudyResult& study) {
   FigureContent content;
-  content.statement = "Crack initiation is where the axial stiffness starts to fluctuate, at about 0.1 % strain and 71.1 MPa, 34 % of the "
-                      "peak; laboratories find about 40 %.";
+  content.statement =
+      "Crack initiation is where the axial stiffness starts to fluctuate, at about 0.1 % strain and 71.1 MPa, 34 % of "
+      "the "
+      "peak; laboratories find about 40 %.";
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
@@ -46,9 +50,13 @@ FigureContent initiation_readings(const StudyResult& study) {
     name[0] = static_cast<char>(std::tolower(name[0]));
     said.push_back(found.count == 0 ? "no value by " + name : fmt::format("{} MPa by {}", number(found.mean, 3), name));
   }
-  content.panels.push_back({.id = "", .caption = "Crack initiation by four readings of one test, " + cases.front().label +
-                                                     (cases.front().repeats.size() > 1 ? "; mean ± standard deviation of the seeds." : "."),
-                            .alt = "", .content = table, .per_row = 1});
+  content.panels.push_back(
+      {.id = "",
+       .caption = "Crack initiation by four readings of one test, " + cases.front().label +
+                  (cases.front().repeats.size() > 1 ? "; mean ± standard deviation of the seeds." : "."),
+       .alt = "",
+       .content = table,
+       .per_row = 1});
   content.finding = "Crack initiation at " + cases.front().label + ": " + listed(said) + ".";
   return content;
 }

@@ -50,8 +50,9 @@ std::string beside(const Spread& ours, double theirs, int digits) {
 
 FigureContent mineral_properties(const StudyResult& study) {
   FigureContent content;
-  content.statement = "Each mineral alone, in a specimen of about 2000 particles, was calibrated to a modulus, a tensile strength, a "
-                      "compressive strength and a Hoek-Brown m.";
+  content.statement =
+      "Each mineral alone, in a specimen of about 2000 particles, was calibrated to a modulus, a tensile strength, a "
+      "compressive strength and a Hoek-Brown m.";
   add_missing(content, study, {test_compression, test_tension});
   TextTable table{{"Mineral", "E (GPa)", "TS (MPa)", "UCS (MPa)", "m (95 % interval)"}, {}};
   std::vector<std::string> said;
@@ -63,9 +64,10 @@ FigureContent mineral_properties(const StudyResult& study) {
     const Spread modulus = of_first(pressed, result("young_modulus_GPa")), ucs = of_first(pressed, result("ucs_MPa"));
     const Spread ts = of_first(pulled, result("tensile_strength_MPa"));
     const auto m = envelopes_of(study, mineral).find("peak.m");
-    table.rows.push_back({mineral, beside(modulus, theirs.young_modulus, 3), beside(ts, theirs.tensile_strength, 3),
-                          beside(ucs, theirs.ucs, 4),
-                          (m ? estimate_text(*m, 3, true) : "–") + (std::isfinite(theirs.m) ? " / " + shortest(theirs.m) : "")});
+    table.rows.push_back(
+        {mineral, beside(modulus, theirs.young_modulus, 3), beside(ts, theirs.tensile_strength, 3),
+         beside(ucs, theirs.ucs, 4),
+         (m ? estimate_text(*m, 3, true) : "–") + (std::isfinite(theirs.m) ? " / " + shortest(theirs.m) : "")});
     std::vector<std::string> parts;
     const auto share = [&](const char* name, double ours, double published_value) {
       if (std::isfinite(ours) && std::isfinite(published_value)) {
@@ -79,7 +81,11 @@ FigureContent mineral_properties(const StudyResult& study) {
     if (!parts.empty()) said.push_back(mineral + ": " + joined(parts, ", "));
   }
   if (table.rows.empty()) return content;
-  content.panels.push_back({.id = "", .caption = "Ours / published (Table 3, calibrated values).", .alt = "", .content = table, .per_row = 1});
+  content.panels.push_back({.id = "",
+                            .caption = "Ours / published (Table 3, calibrated values).",
+                            .alt = "",
+                            .content = table,
+                            .per_row = 1});
   content.finding = joined(said, "; ") + (said.empty() ? "" : ".");
   if (!content.finding.empty()) content.finding[0] = static_cast<char>(std::toupper(content.finding[0]));
   return content;
@@ -87,22 +93,29 @@ FigureContent mineral_properties(const StudyResult& study) {
 
 FigureContent mineral_envelopes(const StudyResult& study) {
   FigureContent content;
-  content.statement = "Peak stresses of the four minerals against confining pressure, with fitted Hoek-Brown envelopes; quartz is the "
-                      "strongest, biotite the weakest.";
+  content.statement =
+      "Peak stresses of the four minerals against confining pressure, with fitted Hoek-Brown envelopes; quartz is the "
+      "strongest, biotite the weakest.";
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   render::Chart chart;
   chart.x.title = confining_axis.title;
   chart.left.title = "Peak axial stress σ₁ (MPa)";
   chart.left.low = 0;
-  constexpr std::array markers{render::Marker::circle, render::Marker::square, render::Marker::triangle, render::Marker::diamond};
+  constexpr std::array markers{render::Marker::circle, render::Marker::square, render::Marker::triangle,
+                               render::Marker::diamond};
   std::vector<std::string> said;
   std::size_t index = 0;
   for (const std::string& mineral : minerals_tested(study)) {
     const Envelopes found = envelopes_of(study, mineral);
     if (found.peak.sigma_3.empty()) continue;
     const render::Colour colour = render::palette(index);
-    chart.series.push_back({.label = mineral, .x = found.peak.sigma_3, .y = found.peak.sigma_1, .colour = colour, .line = render::Line::none,
-                            .marker = markers[index++ % markers.size()], .y_error = {}});
+    chart.series.push_back({.label = mineral,
+                            .x = found.peak.sigma_3,
+                            .y = found.peak.sigma_1,
+                            .colour = colour,
+                            .line = render::Line::none,
+                            .marker = markers[index++ % markers.size()],
+                            .y_error = {}});
     const double high = std::ranges::max(found.peak.sigma_3);
     const auto line = [&](render::Line kind, const auto& at) {
       render::Series series = line_of(0, high, at);
@@ -121,9 +134,13 @@ FigureContent mineral_envelopes(const StudyResult& study) {
   chart.legend = render::Chart::Legend::below;
   chart.width = 640;
   chart.height = 440;
-  const std::string fits = said.empty() ? "Too few pressures for a fit." : "Fitted with σc = UCS: " + joined(said, "; ") + ".";
-  content.panels.push_back({.id = "", .caption = "Peak stresses of the minerals; solid: our fits with σc = UCS and s = 1; dotted: envelopes with UCS and m of Table 3.",
-                            .alt = fits, .content = chart});
+  const std::string fits =
+      said.empty() ? "Too few pressures for a fit." : "Fitted with σc = UCS: " + joined(said, "; ") + ".";
+  content.panels.push_back({.id = "",
+                            .caption = "Peak stresses of the minerals; solid: our fits with σc = UCS and s = 1; "
+                                       "dotted: envelopes with UCS and m of Table 3.",
+                            .alt = fits,
+                            .content = chart});
   content.finding = fits;
   return content;
 }

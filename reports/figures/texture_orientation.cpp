@@ -54,7 +54,8 @@ Band band_of(const dem::Record& record, int draws) {
   const auto area = cracks.real("area").subspan(first);
   const double thickness = band_diameters * mean;
   return {densest_band(centred(cracks.real("position"), first), area, places, volume, thickness),
-          draws > 0 ? excess_at_random(cracks.integer("contact").subspan(first), area, places, volume, thickness, draws) : 0};
+          draws > 0 ? excess_at_random(cracks.integer("contact").subspan(first), area, places, volume, thickness, draws)
+                    : 0};
 }
 
 render::Chart angle_chart(const std::vector<SeriesCase>& cases) {
@@ -64,7 +65,8 @@ render::Chart angle_chart(const std::vector<SeriesCase>& cases) {
   chart.left.low = 0;
   chart.x.low = 0;
   chart.x.high = 90;
-  render::Series random{.label = "random", .x = {}, .y = {}, .colour = {0.5, 0.5, 0.5}, .line = render::Line::dot, .y_error = {}};
+  render::Series random{
+      .label = "random", .x = {}, .y = {}, .colour = {0.5, 0.5, 0.5}, .line = render::Line::dot, .y_error = {}};
   for (const SeriesCase& item : cases) {
     const Orientation found = orientation_of(item.record->table("cracks"), 0);
     if (!(found.area > 0)) continue;
@@ -94,8 +96,9 @@ render::Chart angle_chart(const std::vector<SeriesCase>& cases) {
 
 FigureContent crack_orientation(const StudyResult& study) {
   FigureContent content;
-  content.statement = "With confining pressure the failure mode turns from axial splitting to shear. The paper shows it by crack maps "
-                      "and gives no measure.";
+  content.statement =
+      "With confining pressure the failure mode turns from axial splitting to shear. The paper shows it by crack maps "
+      "and gives no measure.";
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
@@ -104,20 +107,36 @@ FigureContent crack_orientation(const StudyResult& study) {
   };
   const auto inclination = [](const dem::Record& r) { return band_of(r, 0).fit.inclination; };
   const Axis& axis = swept_axis(study);
-  TextTable table{{"Case", "Mean angle, all (°)", "Tension cracks (°)", "Shear cracks (°)", "Within 30° of the axis (%)",
-                   "Shear, of the crack area (%)", "Band’s angle to the axis (°)", "Crack density in the band over the mean", "Cracks in the band beyond its volume (%)", "Largest of five random placings (%)"}, {}};
-  const auto shown = [](double value, int digits) { return std::isfinite(value) ? number(value, digits) : std::string("none"); };
-  render::Series angles{.label = "mean angle of cracks", .x = {}, .y = {}, .colour = render::palette(0), .marker = render::Marker::circle, .y_error = {}};
-  render::Series bands{.label = "band with most cracks", .x = {}, .y = {}, .colour = render::palette(1), .line = render::Line::dash,
-                       .marker = render::Marker::square, .y_error = {}};
+  TextTable table{
+      {"Case", "Mean angle, all (°)", "Tension cracks (°)", "Shear cracks (°)", "Within 30° of the axis (%)",
+       "Shear, of the crack area (%)", "Band’s angle to the axis (°)", "Crack density in the band over the mean",
+       "Cracks in the band beyond its volume (%)", "Largest of five random placings (%)"},
+      {}};
+  const auto shown = [](double value, int digits) {
+    return std::isfinite(value) ? number(value, digits) : std::string("none");
+  };
+  render::Series angles{.label = "mean angle of cracks",
+                        .x = {},
+                        .y = {},
+                        .colour = render::palette(0),
+                        .marker = render::Marker::circle,
+                        .y_error = {}};
+  render::Series bands{.label = "band with most cracks",
+                       .x = {},
+                       .y = {},
+                       .colour = render::palette(1),
+                       .line = render::Line::dash,
+                       .marker = render::Marker::square,
+                       .y_error = {}};
   std::vector<std::string> said, standing;
   for (const SeriesCase& item : cases) {
     const dem::Table& cracks = item.record->table("cracks");
-    const Orientation all = orientation_of(cracks, 0), tension = orientation_of(cracks, 0, 0), shear = orientation_of(cracks, 0, 1);
+    const Orientation all = orientation_of(cracks, 0), tension = orientation_of(cracks, 0, 0),
+                      shear = orientation_of(cracks, 0, 1);
     const auto [band, at_random] = band_of(*item.record, 5);
-    table.rows.push_back({item.label, shown(all.mean, 3), shown(tension.mean, 3), shown(shear.mean, 3), shown(100 * all.along, 3),
-                          shown(100 * shear.area / all.area, 2), shown(band.inclination, 2), shown(band.concentration(), 2),
-                          shown(100 * band.excess(), 2), shown(100 * at_random, 2)});
+    table.rows.push_back({item.label, shown(all.mean, 3), shown(tension.mean, 3), shown(shear.mean, 3),
+                          shown(100 * all.along, 3), shown(100 * shear.area / all.area, 2), shown(band.inclination, 2),
+                          shown(band.concentration(), 2), shown(100 * band.excess(), 2), shown(100 * at_random, 2)});
     if (band.excess() > at_random) standing.push_back(item.label);
     if (!(all.area > 0)) continue;
     angles.x.push_back(item.value);
@@ -126,9 +145,13 @@ FigureContent crack_orientation(const StudyResult& study) {
     bands.y.push_back(band.inclination);
     said.push_back(fmt::format("{}: {}° and {}°", item.label, number(all.mean, 3), number(band.inclination, 2)));
   }
-  content.panels.push_back({.id = "angles", .caption = "Directions of all cracks at the end of loading, by area; 0° is splitting along the axis. Dotted: directions at random.",
-                            .alt = "Mean angles of the cracks to the axis: " + by_case(cases, mean_angle(-1), 3, "°") + ".",
-                            .content = angle_chart(cases), .per_row = 2});
+  content.panels.push_back(
+      {.id = "angles",
+       .caption = "Directions of all cracks at the end of loading, by area; 0° is splitting along the axis. Dotted: "
+                  "directions at random.",
+       .alt = "Mean angles of the cracks to the axis: " + by_case(cases, mean_angle(-1), 3, "°") + ".",
+       .content = angle_chart(cases),
+       .per_row = 2});
   if (!angles.x.empty()) {
     render::Chart chart;
     chart.x.title = axis.title;
@@ -139,14 +162,26 @@ FigureContent crack_orientation(const StudyResult& study) {
     chart.legend = render::Chart::Legend::below;
     chart.width = 440;
     chart.height = 380;
-    content.panels.push_back({.id = "band", .caption = fmt::format("Mean angle of the cracks, and angle of the band, {:g} mean particle diameters thick, with most cracks after the peak beyond its share of the volume.", band_diameters),
-                              .alt = "Mean angle of cracks and angle of the band: " + joined(said, "; ") + ".", .content = chart, .per_row = 2});
+    content.panels.push_back(
+        {.id = "band",
+         .caption = fmt::format("Mean angle of the cracks, and angle of the band, {:g} mean particle diameters thick, "
+                                "with most cracks after the peak beyond its share of the volume.",
+                                band_diameters),
+         .alt = "Mean angle of cracks and angle of the band: " + joined(said, "; ") + ".",
+         .content = chart,
+         .per_row = 2});
   }
-  content.panels.push_back({.id = "table", .caption = "Directions of cracks and the band with most of them. Directions at random have a mean of 32.7° and half of the area within 30°.", .alt = "",
-                            .content = table, .per_row = 1});
-  content.finding = "Mean angle of the cracks to the axis, and angle of the band with most cracks: " + joined(said, "; ") + ".";
+  content.panels.push_back({.id = "table",
+                            .caption = "Directions of cracks and the band with most of them. Directions at random have "
+                                       "a mean of 32.7° and half of the area within 30°.",
+                            .alt = "",
+                            .content = table,
+                            .per_row = 1});
+  content.finding =
+      "Mean angle of the cracks to the axis, and angle of the band with most cracks: " + joined(said, "; ") + ".";
   content.finding += standing.empty() ? " No band holds more cracks than one of cracks placed at random does."
-                                      : " The band holds more cracks than one of cracks placed at random does at " + listed(standing) + ".";
+                                      : " The band holds more cracks than one of cracks placed at random does at " +
+                                            listed(standing) + ".";
   if (cases.size() > 2) {
     content.finding += " The mean angle " + trend_words(cases, mean_angle(-1), "°", axis) + "; the band’s " +
                        trend_words(cases, inclination, "°", axis) + ".";

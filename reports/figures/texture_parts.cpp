@@ -21,7 +21,8 @@ double tone(std::int32_t grain) {
 }
 
 render::Colour toned(const render::Colour& colour, double factor) {
-  return {std::min(1.0, colour.red * factor), std::min(1.0, colour.green * factor), std::min(1.0, colour.blue * factor)};
+  return {std::min(1.0, colour.red * factor), std::min(1.0, colour.green * factor),
+          std::min(1.0, colour.blue * factor)};
 }
 
 /// The cracks table, read once.
@@ -33,8 +34,8 @@ struct Cracks {
 
 Cracks cracks_of(const dem::Record& record, std::size_t count) {
   const dem::Table& table = record.table("cracks");
-  return {table.real("position"), table.real("normal"), table.real("area"), table.integer("place"),
-          table.integer("mode"), std::min(count, table.rows())};
+  return {table.real("position"), table.real("normal"),  table.real("area"),
+          table.integer("place"), table.integer("mode"), std::min(count, table.rows())};
 }
 
 std::size_t class_of(const Cracks& cracks, std::size_t i) {
@@ -80,11 +81,13 @@ std::array<render::Point, 2> frame_of(const Size& size) {
 
 double mean_diameter(const dem::Record& record) {
   const auto radius = record.table("particles").real("radius");
-  return radius.empty() ? 0 : 2 * std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(radius.size());
+  return radius.empty() ? 0
+                        : 2 * std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(radius.size());
 }
 
-const Axis confining_axis{"confining_pressure_MPa", "σ₃", " MPa", "sigma3", "Confining pressure σ₃ (MPa)", "the confining pressure",
-                          "MPa of confining pressure"};
+const Axis confining_axis{
+    "confining_pressure_MPa",   "σ₃", " MPa", "sigma3", "Confining pressure σ₃ (MPa)", "the confining pressure",
+    "MPa of confining pressure"};
 
 const Axis& swept_axis(const StudyResult& study) {
   static const std::array<Axis, 3> axes{
@@ -94,7 +97,8 @@ const Axis& swept_axis(const StudyResult& study) {
   std::size_t values = 0;
   for (const Axis& axis : axes) {
     std::size_t n = 0;
-    for (const auto test : {test_compression, test_tension, test_genesis}) n = std::max(n, series_of(study, test, axis).size());
+    for (const auto test : {test_compression, test_tension, test_genesis})
+      n = std::max(n, series_of(study, test, axis).size());
     if (n > values) most = &axis, values = n;
   }
   return *most;
@@ -226,13 +230,16 @@ std::vector<render::Polyline> crack_traces(const dem::Record& record, std::size_
     double along_x = -cracks.normal[3 * i + 2];
     double along_z = cracks.normal[3 * i];
     const double length = std::hypot(along_x, along_z);
-    if (length < 1e-12) along_x = 1;
-    else along_x /= length, along_z /= length;
+    if (length < 1e-12)
+      along_x = 1;
+    else
+      along_x /= length, along_z /= length;
     const double half = std::sqrt(cracks.area[i] / std::numbers::pi);
     const double x = cracks.position[3 * i];
     const double z = cracks.position[3 * i + 2];
     traces.push_back({{{x - half * along_x, 0, z - half * along_z}, {x + half * along_x, 0, z + half * along_z}},
-                      crack_classes()[k].colour, width});
+                      crack_classes()[k].colour,
+                      width});
   }
   return traces;
 }
@@ -247,12 +254,14 @@ std::array<std::size_t, 4> crack_numbers(const dem::Record& record, std::size_t 
   return numbers;
 }
 
-Picture transparent_cracks(const dem::Record& record, std::size_t count, const std::string& label, int width, double scale) {
+Picture transparent_cracks(const dem::Record& record, std::size_t count, const std::string& label, int width,
+                           double scale) {
   const Size size = size_of(record);
   const double half = 0.5 * size.diameter;
   render::Scene scene;
   scene.discs = crack_discs(record, count, scale);
-  scene.outline = {render::Outline::Shape::cylinder, {-half, -half, size.z_low}, {half, half, size.z_low + size.height}};
+  scene.outline = {
+      render::Outline::Shape::cylinder, {-half, -half, size.z_low}, {half, half, size.z_low + size.height}};
   scene.camera.frame = frame_of(size);
   scene.width = width;
   scene.height = static_cast<int>(std::lround(width * std::max(0.5, size.height / size.diameter)));

@@ -27,7 +27,7 @@ StudyResult of_mineral(const StudyResult& study, std::string_view mineral);
 /// Okabe and Ito 2008) and in grey print (luminance 0.47, 0.00, 0.28, 0.62).
 struct CrackClass {
   std::string_view id, name;
-  int place, mode;          ///< as in the table cracks
+  int place, mode;  ///< as in the table cracks
   render::Colour colour;
 };
 const std::array<CrackClass, 4>& crack_classes();
@@ -62,7 +62,8 @@ std::array<std::size_t, 4> crack_numbers(const dem::Record& record, std::size_t 
 
 /// Two pictures of the first `count` cracks: discs in the transparent specimen, traces on the section.
 inline constexpr std::size_t all_cracks = std::numeric_limits<std::size_t>::max();
-Picture transparent_cracks(const dem::Record& record, std::size_t count, const std::string& label, int width, double scale);
+Picture transparent_cracks(const dem::Record& record, std::size_t count, const std::string& label, int width,
+                           double scale);
 /// How large to draw the discs, 0.2 to 1: at full size the nearest of some thousand cracks would hide all others.
 double legible_disc_scale(const dem::Record& record);
 Picture section_cracks(const dem::Record& record, std::size_t count, const std::string& label, int width);

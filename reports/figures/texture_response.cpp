@@ -14,14 +14,19 @@
 namespace reports::texture {
 namespace {
 
-constexpr int half_width = 440;   // two beside each other on the page
+constexpr int half_width = 440;  // two beside each other on the page
 constexpr int half_height = 310;
 constexpr int curves_height = 380;  // with a legend below
 
 const render::Colour grey{0.35, 0.35, 0.35};
 
 render::Mark moment(double strain_percent, const std::string& label) {
-  return {.kind = render::Mark::Kind::vertical, .x = strain_percent, .y = 0, .label = label, .colour = grey, .line = render::Line::dot};
+  return {.kind = render::Mark::Kind::vertical,
+          .x = strain_percent,
+          .y = 0,
+          .label = label,
+          .colour = grey,
+          .line = render::Line::dot};
 }
 
 // Strain (%) where the axial stress first reaches a level (MPa).
@@ -70,13 +75,20 @@ render::Chart stress_and_strains(const StudyResult& study, const dem::Record& re
   lateral.line = render::Line::dash_dot;
   lateral.side = render::Side::right;
   chart.series = {stress, volume, lateral};
-  for (const auto& [id, name] : {std::pair{"crack_initiation_ar_1", "published σci"}, {"crack_damage", "published σcd"}, {"ucs_ar_1", "published peak"}}) {
+  for (const auto& [id, name] : {std::pair{"crack_initiation_ar_1", "published σci"},
+                                 {"crack_damage", "published σcd"},
+                                 {"ucs_ar_1", "published peak"}}) {
     const double level = study.published_value(id);
     if (!std::isfinite(level)) continue;
-    chart.marks.push_back({.kind = render::Mark::Kind::horizontal, .x = 0, .y = level, .label = name, .colour = {0.6, 0.6, 0.6}});
+    chart.marks.push_back(
+        {.kind = render::Mark::Kind::horizontal, .x = 0, .y = level, .label = name, .colour = {0.6, 0.6, 0.6}});
   }
   for (const Level& one : levels_of(record)) {
-    chart.marks.push_back({.kind = render::Mark::Kind::point, .x = one.strain, .y = one.stress, .label = one.symbol, .colour = {0, 0, 0}});
+    chart.marks.push_back({.kind = render::Mark::Kind::point,
+                           .x = one.strain,
+                           .y = one.stress,
+                           .label = one.symbol,
+                           .colour = {0, 0, 0}});
     chart.marks.push_back(moment(one.strain, ""));
   }
   chart.legend = render::Chart::Legend::below;
@@ -195,8 +207,13 @@ render::Chart strength_bars(const std::vector<Strength>& found, Spread Strength:
   bars.colours = {render::palette(colour)};
   bars.values.emplace_back();
   bars.errors.emplace_back();
-  render::Series line{.label = "UCS/TS (right)", .x = {}, .y = {}, .colour = {0, 0, 0}, .marker = render::Marker::diamond,
-                      .side = render::Side::right, .y_error = {}};
+  render::Series line{.label = "UCS/TS (right)",
+                      .x = {},
+                      .y = {},
+                      .colour = {0, 0, 0},
+                      .marker = render::Marker::diamond,
+                      .side = render::Side::right,
+                      .y_error = {}};
   double highest = 0;
   bool repeated = false;
   for (const Strength& one : found) {
@@ -235,22 +252,28 @@ render::Chart strength_bars(const std::vector<Strength>& found, Spread Strength:
 std::string strengths_alt(const std::vector<Strength>& found) {
   std::vector<std::string> parts;
   for (const Strength& one : found) {
-    parts.push_back(fmt::format("{}: UCS {} MPa, TS {} MPa, ratio {}", one.label, number(one.ucs.mean, 4), number(one.ts.mean, 3),
-                                number(one.ratio, 3)));
+    parts.push_back(fmt::format("{}: UCS {} MPa, TS {} MPa, ratio {}", one.label, number(one.ucs.mean, 4),
+                                number(one.ts.mean, 3), number(one.ratio, 3)));
   }
   return joined(parts, "; ") + ".";
 }
 
 std::string spread_note(const std::vector<Strength>& found) {
   return std::ranges::any_of(found, [](const Strength& one) { return one.ucs.count > 1 || one.ts.count > 1; })
-             ? " Means of repeats; bars are one standard deviation." : "";
+             ? " Means of repeats; bars are one standard deviation."
+             : "";
 }
 
 void add_strengths(FigureContent& content, const std::vector<Strength>& found) {
   if (found.empty()) return;
-  content.panels.push_back({.id = "strength", .caption = "Uniaxial compressive strength and its ratio to the tensile strength." + spread_note(found),
-                            .alt = strengths_alt(found), .content = strength_bars(found, &Strength::ucs, "UCS", 0, true)});
-  content.panels.push_back({.id = "tensile_strength", .caption = "Tensile strength." + spread_note(found), .alt = strengths_alt(found),
+  content.panels.push_back(
+      {.id = "strength",
+       .caption = "Uniaxial compressive strength and its ratio to the tensile strength." + spread_note(found),
+       .alt = strengths_alt(found),
+       .content = strength_bars(found, &Strength::ucs, "UCS", 0, true)});
+  content.panels.push_back({.id = "tensile_strength",
+                            .caption = "Tensile strength." + spread_note(found),
+                            .alt = strengths_alt(found),
                             .content = strength_bars(found, &Strength::ts, "TS", 2, false)});
 }
 
@@ -300,7 +323,8 @@ render::Chart share_chart(const std::string& title, const std::vector<SeriesCase
   return chart;
 }
 
-void add_stack(render::Chart& chart, const std::string& label, const render::Colour& colour, std::vector<double> values) {
+void add_stack(render::Chart& chart, const std::string& label, const render::Colour& colour,
+               std::vector<double> values) {
   chart.bars->labels.push_back(label);
   chart.bars->colours.push_back(colour);
   chart.bars->values.push_back(std::move(values));
@@ -342,7 +366,8 @@ TextTable contact_table(const std::vector<SeriesCase>& cases) {
   for (const SeriesCase& item : cases) table.head.push_back(item.label + " (%)");
   for (const std::string& name : names_after(cases, "contact_share.")) {
     std::vector<std::string> row{words(name)};
-    for (const SeriesCase& item : cases) row.push_back(fmt::format("{:.1f}", share(*item.record, "contact_share." + name)));
+    for (const SeriesCase& item : cases)
+      row.push_back(fmt::format("{:.1f}", share(*item.record, "contact_share." + name)));
     table.rows.push_back(row);
   }
   return table;
@@ -353,7 +378,8 @@ TextTable contact_table(const std::vector<SeriesCase>& cases) {
 FigureContent progressive_failure(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "Crack initiation where the axial stiffness leaves its plateau, at 71.1 MPa (34 % of the peak, strain 0.1 %); crack "
+      "Crack initiation where the axial stiffness leaves its plateau, at 71.1 MPa (34 % of the peak, strain 0.1 %); "
+      "crack "
       "damage where the volumetric strain turns, at 164 MPa (80 %, strain 0.25 %); peak at 206.8 MPa.";
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
@@ -364,10 +390,14 @@ FigureContent progressive_failure(const StudyResult& study) {
     said.push_back(fmt::format("{} {} MPa at {} % strain", one.symbol, number(one.stress, 4), number(one.strain, 3)));
   }
   const std::string found = said.empty() ? "no characteristic stress was found" : joined(said, ", ");
-  content.panels.push_back({.id = "stress", .caption = "Axial stress, volumetric and lateral strain (contraction positive), with our and the published levels.",
-                            .alt = "Stress, volumetric and lateral strain against axial strain: " + found + ".",
-                            .content = stress_and_strains(study, base)});
-  content.panels.push_back({.id = "stiffness", .caption = "Axial stiffness (Eq. 9) and cracks so far, by class.",
+  content.panels.push_back(
+      {.id = "stress",
+       .caption =
+           "Axial stress, volumetric and lateral strain (contraction positive), with our and the published levels.",
+       .alt = "Stress, volumetric and lateral strain against axial strain: " + found + ".",
+       .content = stress_and_strains(study, base)});
+  content.panels.push_back({.id = "stiffness",
+                            .caption = "Axial stiffness (Eq. 9) and cracks so far, by class.",
                             .alt = "Axial stiffness and numbers of cracks against axial strain; " +
                                    crack_words(crack_numbers(base, all_cracks)) + " at the end.",
                             .content = stiffness_and_cracks(base)});
@@ -376,7 +406,8 @@ FigureContent progressive_failure(const StudyResult& study) {
   const double ci = result_or_nan(base, "crack_initiation_MPa.axial_stiffness");
   const double cd = result_or_nan(base, "crack_damage_MPa");
   if (std::isfinite(ci) && std::isfinite(cd) && ucs > 0) {
-    content.finding += fmt::format(" Initiation is {} and damage {} of the peak.", percent(ci / ucs, 0), percent(cd / ucs, 0));
+    content.finding +=
+        fmt::format(" Initiation is {} and damage {} of the peak.", percent(ci / ucs, 0), percent(cd / ucs, 0));
   }
   return content;
 }
@@ -384,7 +415,8 @@ FigureContent progressive_failure(const StudyResult& study) {
 FigureContent stress_strain(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "Curves agree up to crack initiation and part after it, first in lateral strain. UCS falls from 206.8 to 201.3 and "
+      "Curves agree up to crack initiation and part after it, first in lateral strain. UCS falls from 206.8 to 201.3 "
+      "and "
       "198.4 MPa and TS from 9.8 to 9.4 and 9.1 MPa at aspect ratios 1, 2 and 3; UCS/TS rises slightly.";
   const auto compression = swept(study, test_compression);
   const auto tension = swept(study, test_tension);
@@ -392,12 +424,15 @@ FigureContent stress_strain(const StudyResult& study) {
   const std::string ucs = by_case(compression, result("ucs_MPa"), 4, "MPa");
   const std::string ts = by_case(tension, result("tensile_strength_MPa"), 3, "MPa");
   if (!compression.empty()) {
-    content.panels.push_back({.id = "compression", .caption = "Uniaxial compression: axial stress against axial, lateral and volumetric strain.",
-                              .alt = "Stress-strain curves in compression; peaks of " + ucs + ".",
-                              .content = compression_curves(compression)});
+    content.panels.push_back(
+        {.id = "compression",
+         .caption = "Uniaxial compression: axial stress against axial, lateral and volumetric strain.",
+         .alt = "Stress-strain curves in compression; peaks of " + ucs + ".",
+         .content = compression_curves(compression)});
   }
   if (!tension.empty()) {
-    content.panels.push_back({.id = "tension", .caption = "Direct tension.",
+    content.panels.push_back({.id = "tension",
+                              .caption = "Direct tension.",
                               .alt = "Stress-strain curves in direct tension; peaks of " + ts + ".",
                               .content = tension_curves(tension)});
   }
@@ -409,8 +444,9 @@ FigureContent stress_strain(const StudyResult& study) {
 
 FigureContent dip_strengths(const StudyResult& study) {
   FigureContent content;
-  content.statement = "With the dip of the long axes from 0° to 90° the tensile strength rises strongly and UCS rises, weakest at 0°; "
-                      "UCS/TS falls from 21 to 17.";
+  content.statement =
+      "With the dip of the long axes from 0° to 90° the tensile strength rises strongly and UCS rises, weakest at 0°; "
+      "UCS/TS falls from 21 to 17.";
   const auto compression = swept(study, test_compression);
   const auto tension = swept(study, test_tension);
   add_missing(content, study, {test_compression, test_tension});
@@ -434,17 +470,21 @@ FigureContent group_shares(const StudyResult& study) {
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
-  const std::string inter = by_case(cases, [](const dem::Record& r) { return 100 * result_or_nan(r, "inter_grain_share"); }, 3, "%");
+  const std::string inter = by_case(
+      cases, [](const dem::Record& r) { return 100 * result_or_nan(r, "inter_grain_share"); }, 3, "%");
   if (!names_after(cases, "mineral_share.").empty()) {
-    content.panels.push_back({.id = "minerals", .caption = "Minerals, by particles.",
+    content.panels.push_back({.id = "minerals",
+                              .caption = "Minerals, by particles.",
                               .alt = "Stacked bars of the mineral shares, nearly the same in every case.",
                               .content = mineral_chart(cases)});
   }
   if (!names_after(cases, "contact_share.").empty()) {
-    content.panels.push_back({.id = "contacts", .caption = "Contacts within grains, by mineral, and between grains.",
+    content.panels.push_back({.id = "contacts",
+                              .caption = "Contacts within grains, by mineral, and between grains.",
                               .alt = "Stacked bars of the contact groups; between grains " + inter + ".",
                               .content = contact_chart(cases)});
-    content.panels.push_back({.id = "groups", .caption = "Every contact group.", .alt = "", .content = contact_table(cases)});
+    content.panels.push_back(
+        {.id = "groups", .caption = "Every contact group.", .alt = "", .content = contact_table(cases)});
   }
   content.finding = "Contacts between grains: " + inter + ".";
   const std::string trend = trend_words(cases, result("inter_grain_share", 100), "points", swept_axis(study));

@@ -28,8 +28,13 @@ std::vector<Grain> grains_of(const dem::Record& record) {
   const auto mineral = table.integer("mineral");
   std::vector<Grain> grains(radius.size());
   for (std::size_t i = 0; i < grains.size(); ++i) {
-    grains[i] = {{centre[3 * i], centre[3 * i + 1], centre[3 * i + 2]}, {axis[3 * i], axis[3 * i + 1], axis[3 * i + 2]},
-                 radius[i], semi_long[i], semi_short[i], particles[i], mineral[i]};
+    grains[i] = {{centre[3 * i], centre[3 * i + 1], centre[3 * i + 2]},
+                 {axis[3 * i], axis[3 * i + 1], axis[3 * i + 2]},
+                 radius[i],
+                 semi_long[i],
+                 semi_short[i],
+                 particles[i],
+                 mineral[i]};
   }
   return grains;
 }
@@ -53,7 +58,8 @@ std::optional<std::size_t> chosen_grain(const std::vector<SeriesCase>& cases) {
     if (grain.seed_radius < low || grain.seed_radius > high || grain.particles < 8) continue;
     const double off_axis = std::hypot(grain.centre[0], grain.centre[1]);
     const double off_middle = std::abs(grain.centre[2] - size.z_low - 0.5 * size.height);
-    const bool inside = off_axis + longest[i].semi_long < 0.5 * size.diameter && off_middle + longest[i].semi_long < 0.5 * size.height;
+    const bool inside =
+        off_axis + longest[i].semi_long < 0.5 * size.diameter && off_middle + longest[i].semi_long < 0.5 * size.height;
     const double distance = std::hypot(off_axis, off_middle) + (inside ? 0 : size.height);
     if (!best || distance < best_distance) {
       best = i;
@@ -85,18 +91,23 @@ Picture cluster_picture(const SeriesCase& item, std::size_t index, double reach,
   scene.spheres.push_back(std::move(cluster));
   // Seen along the horizontal direction across the long axis; lines lie in front of the spheres.
   const double flat = std::hypot(grain.axis[0], grain.axis[1]);
-  const render::Point view = flat > 1e-9 ? render::Point{grain.axis[1] / flat, -grain.axis[0] / flat, 0} : render::Point{0, -1, 0};
+  const render::Point view =
+      flat > 1e-9 ? render::Point{grain.axis[1] / flat, -grain.axis[0] / flat, 0} : render::Point{0, -1, 0};
   const render::Point& a = grain.axis;
-  const render::Point across{view[1] * a[2] - view[2] * a[1], view[2] * a[0] - view[0] * a[2], view[0] * a[1] - view[1] * a[0]};
+  const render::Point across{view[1] * a[2] - view[2] * a[1], view[2] * a[0] - view[0] * a[2],
+                             view[0] * a[1] - view[1] * a[0]};
   const render::Point front = along(grain.centre, view, -1.2 * reach);
   const double beyond = 1.25;
   scene.lines.push_back({{along(front, a, -beyond * grain.semi_long), along(front, a, beyond * grain.semi_long)},
-                         {0.75, 0.05, 0.05}, 3.5, render::Line::dash});
+                         {0.75, 0.05, 0.05},
+                         3.5,
+                         render::Line::dash});
   const render::Point level{-view[1], view[0], 0};
   const render::Point& other = dips ? level : across;
   const double length = beyond * (dips ? grain.semi_long : grain.semi_short);
   const render::Colour other_colour = dips ? render::Colour{0.35, 0.35, 0.35} : render::Colour{0.66, 0.46, 0.0};
-  scene.lines.push_back({{along(front, other, -length), along(front, other, length)}, other_colour, 3.5, render::Line::dash});
+  scene.lines.push_back(
+      {{along(front, other, -length), along(front, other, length)}, other_colour, 3.5, render::Line::dash});
   scene.camera.direction = view;
   scene.camera.frame = {{{grain.centre[0] - reach, grain.centre[1] - reach, grain.centre[2] - 0.75 * reach},
                          {grain.centre[0] + reach, grain.centre[1] + reach, grain.centre[2] + 0.75 * reach}}};
@@ -122,27 +133,31 @@ std::string mineral_shares(const dem::Record& record) {
 
 FigureContent specimen(const StudyResult& study) {
   FigureContent content;
-  content.statement = "A core of grains grown from random seeds, minerals told apart by colour, and its longitudinal section.";
+  content.statement =
+      "A core of grains grown from random seeds, minerals told apart by colour, and its longitudinal section.";
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
   const dem::Record& base = *cases.front().record;
   const int width = 420;
   const std::string shares = mineral_shares(base);
-  content.panels.push_back({.id = "whole",
-                            .caption = "The whole specimen.",
-                            .alt = "Cylinder of " + count(static_cast<double>(base.table("particles").rows())) +
-                                   " spheres coloured by mineral: " + shares + " of the particles.",
-                            .content = Picture{.scene = specimen_scene(base, width), .label = cases.front().label,
-                                               .legend = mineral_legend(base)},
-                            .per_row = 4});
+  content.panels.push_back(
+      {.id = "whole",
+       .caption = "The whole specimen.",
+       .alt = "Cylinder of " + count(static_cast<double>(base.table("particles").rows())) +
+              " spheres coloured by mineral: " + shares + " of the particles.",
+       .content =
+           Picture{.scene = specimen_scene(base, width), .label = cases.front().label, .legend = mineral_legend(base)},
+       .per_row = 4});
   for (const SeriesCase& item : cases) {
-    content.panels.push_back({.id = "section_" + item.id,
-                              .caption = "Longitudinal section.",
-                              .alt = "Section along the axis at " + item.label + ": " + mineral_shares(*item.record) + ".",
-                              .content = Picture{.scene = section_scene(*item.record, width), .label = item.label,
-                                                 .legend = mineral_legend(*item.record)},
-                              .per_row = 4});
+    content.panels.push_back(
+        {.id = "section_" + item.id,
+         .caption = "Longitudinal section.",
+         .alt = "Section along the axis at " + item.label + ": " + mineral_shares(*item.record) + ".",
+         .content = Picture{.scene = section_scene(*item.record, width),
+                            .label = item.label,
+                            .legend = mineral_legend(*item.record)},
+         .per_row = 4});
   }
   const Size size = size_of(base);
   content.finding = fmt::format("{} particles in {} grains, {:g} mm × {:g} mm; of the particles at {}, {}.",
@@ -154,7 +169,8 @@ FigureContent specimen(const StudyResult& study) {
 
 FigureContent grain_cluster(const StudyResult& study) {
   FigureContent content;
-  content.statement = "The same grain at aspect ratios 1, 2 and 3: the masking ellipsoid keeps its volume and grows longer.";
+  content.statement =
+      "The same grain at aspect ratios 1, 2 and 3: the masking ellipsoid keeps its volume and grows longer.";
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
@@ -174,8 +190,9 @@ FigureContent grain_cluster(const StudyResult& study) {
         {.id = item.id,
          .caption = fmt::format("Grain {}, {}; half axes {:.2f} and {:.2f} mm.", *index, mineral, 1e3 * grain.semi_long,
                                 1e3 * grain.semi_short),
-         .alt = fmt::format("Cluster of {} spheres of grain {} ({}) with its long axis of {:.2f} mm and short axis of {:.2f} mm.",
-                            grain.particles, *index, mineral, 2e3 * grain.semi_long, 2e3 * grain.semi_short),
+         .alt = fmt::format(
+             "Cluster of {} spheres of grain {} ({}) with its long axis of {:.2f} mm and short axis of {:.2f} mm.",
+             grain.particles, *index, mineral, 2e3 * grain.semi_long, 2e3 * grain.semi_short),
          .content = cluster_picture(item, *index, reach, swept_axis(study).parameter == "dip"),
          .per_row = 3});
   }

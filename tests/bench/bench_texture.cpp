@@ -37,8 +37,8 @@ int main(int argc, char** argv) {
       best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     }
     const auto line = [&](const char* name, double value, const char* unit) {
-      fmt::print("{{\"name\": \"{}\", \"value\": {:.6g}, \"unit\": \"{}\", \"threads\": {}, \"size\": {}}}\n", name, value,
-                 unit, threads, input.bonds.size());
+      fmt::print("{{\"name\": \"{}\", \"value\": {:.6g}, \"unit\": \"{}\", \"threads\": {}, \"size\": {}}}\n", name,
+                 value, unit, threads, input.bonds.size());
     };
     line("texture_contact_updates", contacts * steps / best, "1/s");
     line("texture_particle_steps", particles * steps / best, "1/s");

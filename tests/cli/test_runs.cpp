@@ -138,13 +138,14 @@ TEST_CASE("a run that is stopped by a signal says so, and goes on to the same by
 }
 
 TEST_CASE("cases side by side: the same summary for any number of threads, and a signal keeps the state of all") {
-  const auto run_two = [](const fs::path& folder, const std::string& threads, const test::WhileRunning& meanwhile = {}) {
-    return test::run_program(folder,
-                             {DEM_SOURCE_DIR "/scenarios/ldb_dip_angle.toml", "--scale", "smoke", "--set",
-                              "tests=[\"direct_tension\"]", "--set", "sweep.dip=[\"0 deg\", \"90 deg\"]", "--set",
-                              "direct_tension.rate=1e-7", "--only", "stress_strain", "--format", "html", "--threads",
-                              threads},
-                             meanwhile);
+  const auto run_two = [](const fs::path& folder, const std::string& threads,
+                          const test::WhileRunning& meanwhile = {}) {
+    return test::run_program(
+        folder,
+        {DEM_SOURCE_DIR "/scenarios/ldb_dip_angle.toml", "--scale", "smoke", "--set", "tests=[\"direct_tension\"]",
+         "--set", "sweep.dip=[\"0 deg\", \"90 deg\"]", "--set", "direct_tension.rate=1e-7", "--only", "stress_strain",
+         "--format", "html", "--threads", threads},
+        meanwhile);
   };
   const fs::path study = fs::path("out") / "ldb_dip_angle.smoke";
   std::string summary, page;
@@ -216,8 +217,8 @@ TEST_CASE("output that cannot be written: exit code 3, the path is named") {
 TEST_CASE("a specimen can be made and reported without being loaded") {
   const test::Scratch folder;
   const test::Outcome made =
-      test::run_program(folder.path(), {DEM_SOURCE_DIR "/scenarios/ldb_texture.toml", "--scale", "smoke", "--case", "genesis_ar_1",
-                                        "--only", "genesis_contacts", "--format", "html"});
+      test::run_program(folder.path(), {DEM_SOURCE_DIR "/scenarios/ldb_texture.toml", "--scale", "smoke", "--case",
+                                        "genesis_ar_1", "--only", "genesis_contacts", "--format", "html"});
   INFO(made.err);
   REQUIRE(made.code == 0);
   const fs::path output = folder.path() / "out" / "ldb_texture.smoke";

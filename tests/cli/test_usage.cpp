@@ -36,12 +36,14 @@ TEST_CASE("the reference of the scenario keys is what the program says of them")
   const std::string said = test::run_program(folder.path(), {"--explain-keys"}).out;
   const std::string page =
       "# Scenario keys\n\nThe output of `dem-report --explain-keys`. Quantities are written with their unit, as in\n"
-      "`diameter = \"25 mm\"`.\n\n```text\n" + said + "```\n";
+      "`diameter = \"25 mm\"`.\n\n```text\n" +
+      said + "```\n";
   const std::filesystem::path kept = DEM_SOURCE_DIR "/docs/scenario-keys.md";
   if (std::filesystem::exists(kept) && dem::read_file(kept) == page) return;
   const std::filesystem::path fresh = std::filesystem::current_path() / "scenario-keys.md";
   dem::write_file(fresh, page);
-  FAIL_CHECK(kept.string() << " is not what --explain-keys says; to refresh it: cp " << fresh.string() << " " << kept.string());
+  FAIL_CHECK(kept.string() << " is not what --explain-keys says; to refresh it: cp " << fresh.string() << " "
+                           << kept.string());
 }
 
 TEST_CASE("wrong usage and wrong input exit with 2, say what would be right, and write nothing") {

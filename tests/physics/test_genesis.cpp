@@ -304,7 +304,8 @@ TEST_CASE("a particle between grains follows the rule of growth") {
 TEST_CASE("every particle has a grain: by mask when an ellipsoid holds it, else by contact") {
   RunContext context;
   const Packing& p = small_packing();
-  const GrainSeeds seeds = seed_grains(dem_test::granite_packing(small_diameter).vessel, dem_test::granite_minerals(), 0.5, 1, context);
+  const GrainSeeds seeds =
+      seed_grains(dem_test::granite_packing(small_diameter).vessel, dem_test::granite_minerals(), 0.5, 1, context);
   std::vector<std::vector<std::int32_t>> touching(p.radius.size());
   for (const auto& [i, j] : p.contacts) {
     touching[i].push_back(j);

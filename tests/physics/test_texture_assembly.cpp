@@ -145,7 +145,8 @@ TEST_CASE("two gripped particles fail at the strength of their bond") {
     BondSpec spec;
     spec.second = 1;
     spec.boundary = boundary;
-    spec.group = boundary ? between(s.minerals[1], s.minerals[1], s.interaction) : inside(s.minerals[1], JointModulus::sum);
+    spec.group =
+        boundary ? between(s.minerals[1], s.minerals[1], s.interaction) : inside(s.minerals[1], JointModulus::sum);
     input.bonds = {spec};
     for (const Mineral& a : s.minerals) {
       input.fresh.emplace_back();
@@ -154,7 +155,8 @@ TEST_CASE("two gripped particles fail at the strength of their bond") {
     }
     Assembly assembly(input, 1);
     const double kn = spec.group.bond_modulus / 0.9e-3, opening = spec.group.tensile_strength / kn;
-    const double speed = 2e-7 * opening / assembly.time_step();  // some five million steps would be exact; sample finely
+    const double speed =
+        2e-7 * opening / assembly.time_step();  // some five million steps would be exact; sample finely
     assembly.drive(-10000 * speed / 2, 10000 * speed / 2, 1);
     double peak = 0, work = 0;
     while (assembly.cracks().empty() && assembly.step() < 2000) {
@@ -170,7 +172,9 @@ TEST_CASE("two gripped particles fail at the strength of their bond") {
   }
 }
 
-TEST_CASE("a particle that spins between two others is stopped by friction as a ball between two plates, its account closed") {
+TEST_CASE(
+    "a particle that spins between two others is stopped by friction as a ball between two plates, its account "
+    "closed") {
   const Settings s = dem_test::granite(10, 20);
   for (const bool bonded : {false, true}) {
     CAPTURE(bonded);

@@ -99,7 +99,9 @@ TEST_CASE("a confined test that is cut goes on to the same bits") {
 
 TEST_CASE("the vector code of broken joints does what the scalar law does") {
   dem::RandomStream random(5, dem::Purpose::test_data);
-  const auto vector = [&](double size) { return T{random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)}; };
+  const auto vector = [&](double size) {
+    return T{random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
+  };
   const ContactGroup group = inside(dem_test::granite(10, 20).minerals[1], JointModulus::sum);
   constexpr int count = 203;  // no multiple of any width
   std::vector<PartlyBrokenJoint> joints;
@@ -112,8 +114,8 @@ TEST_CASE("the vector code of broken joints does what the scalar law does") {
     j.reference = T{0.3e-3, 0.2e-3, 0.7e-3};
     j.reference_length = std::sqrt(dot(j.reference, j.reference));
     const double r = 0.4e-3, kn = group.bond_modulus / (2 * r), area = std::numbers::pi * r * r;
-    j.law = {kn * area, 1 / group.bond_stiffness_ratio, flat_joint_arm * r, group.tensile_strength / kn, group.cohesion / kn,
-             std::tan(group.friction_angle)};
+    j.law = {kn * area,           1 / group.bond_stiffness_ratio, flat_joint_arm * r, group.tensile_strength / kn,
+             group.cohesion / kn, std::tan(group.friction_angle)};
     j.friction = 0.6;
     j.zero_angle = any_perpendicular(j.reference);
     for (JointElement& e : j.element) {
@@ -152,7 +154,8 @@ TEST_CASE("the vector code of broken joints does what the scalar law does") {
       CAPTURE(k);
       PartlyBrokenJoint one = joints[static_cast<std::size_t>(k)];
       const JointResult expected = advance(one, at(one.first), at(one.second));
-      const bool is_flagged = std::find(flagged.begin(), flagged.begin() + loop.flagged_count, k) != flagged.begin() + loop.flagged_count;
+      const bool is_flagged =
+          std::find(flagged.begin(), flagged.begin() + loop.flagged_count, k) != flagged.begin() + loop.flagged_count;
       CHECK(is_flagged == (expected.breaks > 0));
       if (is_flagged) continue;
       ++compared;

@@ -42,7 +42,7 @@ PartlyBrokenJoint joint(const Pair& pair, const ContactGroup& g) {
   j.reference_length = pair.length;
   j.share_one = pair.share;
   j.law = {kn * pi * pair.r * pair.r, 1 / g.bond_stiffness_ratio, flat_joint_arm * pair.r, g.tensile_strength / kn,
-           g.cohesion / kn, std::tan(g.friction_angle)};
+           g.cohesion / kn,           std::tan(g.friction_angle)};
   j.friction = g.friction;
   j.zero_angle = any_perpendicular(j.reference);
   return j;
@@ -75,8 +75,10 @@ TEST_CASE("flat joint: small motions give the stiffness of three elements") {
     T u, angle;
   };
   const double s = 1e-13, a = 1e-10;  // m, rad: the terms of second order stay below 1e-10 of the first
-  const Case cases[] = {{"pull", s * n, {0, 0, 0}},          {"shear", s * e1, {0, 0, 0}},
-                        {"bending", {0, 0, 0}, a * e2},      {"torsion", {0, 0, 0}, a * n},
+  const Case cases[] = {{"pull", s * n, {0, 0, 0}},
+                        {"shear", s * e1, {0, 0, 0}},
+                        {"bending", {0, 0, 0}, a * e2},
+                        {"torsion", {0, 0, 0}, a * n},
                         {"mixed", s * n + (0.7 * s) * e2, a * e1 + (0.5 * a) * n}};
   for (const Case& c : cases) {
     CAPTURE(c.name);
@@ -146,9 +148,10 @@ TEST_CASE("force and moments are the derivative of the stored energy, at finite 
       const auto shift = [&](double s) { return Pose<double>{two.x + s * axes[a], two.q}; };
       const auto turn = [&](const Pose<double>& p, double s) {
         const Quaternion<double> t = turned(s * axes[a]), q = p.q;  // t times q
-        return Pose<double>{p.x,
-                            {t.w * q.w - t.x * q.x - t.y * q.y - t.z * q.z, t.w * q.x + t.x * q.w + t.y * q.z - t.z * q.y,
-                             t.w * q.y - t.x * q.z + t.y * q.w + t.z * q.x, t.w * q.z + t.x * q.y - t.y * q.x + t.z * q.w}};
+        return Pose<double>{
+            p.x,
+            {t.w * q.w - t.x * q.x - t.y * q.y - t.z * q.z, t.w * q.x + t.x * q.w + t.y * q.z - t.z * q.y,
+             t.w * q.y - t.x * q.z + t.y * q.w + t.z * q.x, t.w * q.z + t.x * q.y - t.y * q.x + t.z * q.w}};
       };
       CHECK(std::abs(-(u(one, shift(h)) - u(one, shift(-h))) / (2 * h) - force[a]) < 1e-7 * scale);
       CHECK(std::abs(-(u(turn(one, w), two) - u(turn(one, -w), two)) / (2 * w) - m1[a]) < 1e-7 * scale * pair.r);
@@ -264,7 +267,8 @@ TEST_CASE("flat joint: partial damage, element by element") {
   // Open and closed again it slides by Coulomb friction.
   const T e1 = j.zero_angle;
   const JointResult slid = advance(two_left, at_rest, moved(pair, (-pull) * n + (40 * opening) * e1, {0, 0, 0}));
-  const double gap = -(root(dot(pair.d - pull * n + (40 * opening) * e1, pair.d - pull * n + (40 * opening) * e1)) - pair.length);
+  const double gap =
+      -(root(dot(pair.d - pull * n + (40 * opening) * e1, pair.d - pull * n + (40 * opening) * e1)) - pair.length);
   const T t = slid.action.force - dot(slid.action.force, n) * n;
   CHECK(gap > 0);
   CHECK(root(dot(t, t)) > 0);
@@ -285,7 +289,8 @@ TEST_CASE("flat joint: an element that still holds is no hinge for large angles,
   CHECK(torn.broke[0].element == 1);
   CHECK_FALSE(torn.broke[0].shear);
   CHECK(j.broken());
-  CHECK(torn.broke[0].released + torn.friction_heat == test::near(before - stored(j, at_rest, at(1.01 * mismatch))).epsilon(1e-2));
+  CHECK(torn.broke[0].released + torn.friction_heat ==
+        test::near(before - stored(j, at_rest, at(1.01 * mismatch))).epsilon(1e-2));
 }
 
 TEST_CASE("the bound that selects joints never misses a break") {
@@ -295,7 +300,9 @@ TEST_CASE("the bound that selects joints never misses a break") {
   int broke = 0;
   for (int i = 0; i < 20000; ++i) {
     PartlyBrokenJoint j = joint(pair, g);
-    const auto vector = [&](double s) { return T{random.uniform(-s, s), random.uniform(-s, s), random.uniform(-s, s)}; };
+    const auto vector = [&](double s) {
+      return T{random.uniform(-s, s), random.uniform(-s, s), random.uniform(-s, s)};
+    };
     const Pose<double> two = moved(pair, vector(1.5e-6), vector(4e-3));
     const Motion<double> m = motion(at_rest, two, j.reference, j.share_one, j.reference_length);
     const bool flagged = may_break(m, j.law);
@@ -311,8 +318,15 @@ TEST_CASE("parallel bond: stiffness of both parts, strength without moments, fri
   const Pair pair;
   const ContactGroup g = between(feldspar(), feldspar(), {0.9, 2.0, 1.0, 0.25, 0.7, 1.0});
   const double area = pi * pair.r * pair.r, kbn = g.bond_modulus / pair.both, kn = area * g.modulus / pair.both;
-  const ParallelBond<double> bond = {kn, 1 / g.stiffness_ratio, g.friction, kbn * area, 1 / g.bond_stiffness_ratio,
-                                     pair.r, g.tensile_strength / kbn, g.cohesion / kbn, std::tan(g.friction_angle)};
+  const ParallelBond<double> bond = {kn,
+                                     1 / g.stiffness_ratio,
+                                     g.friction,
+                                     kbn * area,
+                                     1 / g.bond_stiffness_ratio,
+                                     pair.r,
+                                     g.tensile_strength / kbn,
+                                     g.cohesion / kbn,
+                                     std::tan(g.friction_angle)};
   const T n = (1 / pair.length) * pair.d, e1 = any_perpendicular(pair.d), none{0, 0, 0};
   const auto at = [&](const T& u, const T& angle) {
     return motion(at_rest, moved(pair, u, angle), pair.d, pair.share, pair.length);

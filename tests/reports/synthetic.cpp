@@ -62,7 +62,8 @@ void place_seeds(Body& body, const Options& o, dem::RandomStream& random) {
     body.seed_radius.push_back(random.uniform(1.0e-3, 2.2e-3));
     double draw = random.uniform();
     std::int32_t mineral = 0;
-    while (mineral < 3 && draw > shares[static_cast<std::size_t>(mineral)]) draw -= shares[static_cast<std::size_t>(mineral++)];
+    while (mineral < 3 && draw > shares[static_cast<std::size_t>(mineral)])
+      draw -= shares[static_cast<std::size_t>(mineral++)];
     body.seed_mineral.push_back(mineral);
   }
 }
@@ -74,7 +75,9 @@ void assign_grains(Body& body, double aspect_ratio) {
     std::int32_t chosen = 0;
     for (std::size_t s = 0; s < body.seed.size(); ++s) {
       const Vec& q = body.seed[s];
-      const double measure = std::hypot((p[0] - q[0]) / (lambda * lambda), (p[1] - q[1]) * lambda, (p[2] - q[2]) * lambda) / body.seed_radius[s];
+      const double measure =
+          std::hypot((p[0] - q[0]) / (lambda * lambda), (p[1] - q[1]) * lambda, (p[2] - q[2]) * lambda) /
+          body.seed_radius[s];
       if (measure < best) best = measure, chosen = static_cast<std::int32_t>(s);
     }
     body.grain.push_back(chosen);
@@ -89,7 +92,8 @@ void find_contacts(Body& body) {
     return std::array<int, 3>{static_cast<int>(std::floor(p[0] / cell)), static_cast<int>(std::floor(p[1] / cell)),
                               static_cast<int>(std::floor(p[2] / cell))};
   };
-  for (std::size_t i = 0; i < body.position.size(); ++i) cells[key(body.position[i])].push_back(static_cast<std::int32_t>(i));
+  for (std::size_t i = 0; i < body.position.size(); ++i)
+    cells[key(body.position[i])].push_back(static_cast<std::int32_t>(i));
   for (std::size_t i = 0; i < body.position.size(); ++i) {
     const auto home = key(body.position[i]);
     for (int n = 0; n < 27; ++n) {
@@ -263,7 +267,8 @@ dem::Table history_table(const Curve& c, const CrackList& list, const Options& o
     col["volumetric_strain"].push_back(strain + 2 * lateral);
     col["axial_stress"].push_back(stress);
     std::array<double, 4> n{};
-    for (std::size_t k = 0; k < cracks_until(list, strain); ++k) ++n[static_cast<std::size_t>(2 * list.place[k] + list.mode[k])];
+    for (std::size_t k = 0; k < cracks_until(list, strain); ++k)
+      ++n[static_cast<std::size_t>(2 * list.place[k] + list.mode[k])];
     col["cracks_intra_tension"].push_back(n[0]);
     col["cracks_intra_shear"].push_back(n[1]);
     col["cracks_inter_tension"].push_back(n[2]);
@@ -281,19 +286,38 @@ dem::Table history_table(const Curve& c, const CrackList& list, const Options& o
     col["axial_stiffness"].push_back(i == 0 ? std::nan("") : stress / strain);
   }
   dem::Table table{.name = "history", .attributes = {}, .columns = {}};
-  constexpr std::array<std::pair<const char*, const char*>, 20> order{
-      {{"time", "s"}, {"step", ""}, {"platen_strain", "1"}, {"axial_strain", "1"}, {"lateral_strain", "1"},
-       {"volumetric_strain", "1"}, {"axial_stress", "Pa"}, {"cracks_intra_tension", ""}, {"cracks_intra_shear", ""},
-       {"cracks_inter_tension", ""}, {"cracks_inter_shear", ""}, {"work", "J"}, {"elastic", "J"}, {"kinetic", "J"},
-       {"damping", "J"}, {"friction", "J"}, {"bond_tension", "J"}, {"bond_shear", "J"}, {"residual", "J"},
-       {"axial_stiffness", "Pa"}}};
+  constexpr std::array<std::pair<const char*, const char*>, 20> order{{{"time", "s"},
+                                                                       {"step", ""},
+                                                                       {"platen_strain", "1"},
+                                                                       {"axial_strain", "1"},
+                                                                       {"lateral_strain", "1"},
+                                                                       {"volumetric_strain", "1"},
+                                                                       {"axial_stress", "Pa"},
+                                                                       {"cracks_intra_tension", ""},
+                                                                       {"cracks_intra_shear", ""},
+                                                                       {"cracks_inter_tension", ""},
+                                                                       {"cracks_inter_shear", ""},
+                                                                       {"work", "J"},
+                                                                       {"elastic", "J"},
+                                                                       {"kinetic", "J"},
+                                                                       {"damping", "J"},
+                                                                       {"friction", "J"},
+                                                                       {"bond_tension", "J"},
+                                                                       {"bond_shear", "J"},
+                                                                       {"residual", "J"},
+                                                                       {"axial_stiffness", "Pa"}}};
   for (const auto& [name, unit] : order) table.add(name, unit, col[name]);
   return table;
 }
 
 void add_snapshots(dem::Record& record, const Curve& c, const CrackList& list) {
-  const std::array<std::pair<const char*, double>, 7> moments{{{"crack_initiation", 0.34}, {"stable_growth", 0.6},
-      {"damage", 0.8}, {"unstable_growth", 0.92}, {"peak", 1.0}, {"post_peak", 1.06}, {"end", c.end_strain / c.peak_strain}}};
+  const std::array<std::pair<const char*, double>, 7> moments{{{"crack_initiation", 0.34},
+                                                               {"stable_growth", 0.6},
+                                                               {"damage", 0.8},
+                                                               {"unstable_growth", 0.92},
+                                                               {"peak", 1.0},
+                                                               {"post_peak", 1.06},
+                                                               {"end", c.end_strain / c.peak_strain}}};
   for (std::size_t k = 0; k < moments.size(); ++k) {
     const double strain = moments[k].second * c.peak_strain;
     dem::Table table{.name = fmt::format("snapshots/{:04}", k),
@@ -321,7 +345,8 @@ void add_shares(dem::Record& record, const Body& body) {
     if (a > b) std::swap(a, b);
     const std::string first = joined(minerals[static_cast<std::size_t>(a)]);
     if (inter(body, pair)) between += 1;
-    ++groups[inter(body, pair) ? "inter_" + first + "_" + joined(minerals[static_cast<std::size_t>(b)]) : "intra_" + first];
+    ++groups[inter(body, pair) ? "inter_" + first + "_" + joined(minerals[static_cast<std::size_t>(b)])
+                               : "intra_" + first];
   }
   const auto all = static_cast<double>(body.pairs.size());
   add("inter_grain_share", between / all);
@@ -342,14 +367,16 @@ dem::Record start(const std::string& test, double aspect_ratio, const Body& body
   record.physics_version = "test";
   record.seed = 1;
   record.parameters = {{"test", test}, {"aspect_ratio", aspect_ratio}, {"dip", 0.0}, {"seed_scale", 1.0}};
-  record.tables = {particles_table(body, options, aspect_ratio), grains_table(body, aspect_ratio), contacts_table(body)};
+  record.tables = {particles_table(body, options, aspect_ratio), grains_table(body, aspect_ratio),
+                   contacts_table(body)};
   return record;
 }
 
 void finish(dem::Record& record, const Body& body, const CrackList& list) {
   std::array<double, 4> n{};
   for (std::size_t k = 0; k < list.mode.size(); ++k) ++n[static_cast<std::size_t>(2 * list.place[k] + list.mode[k])];
-  const std::array<const char*, 4> names{"cracks.intra_tension", "cracks.intra_shear", "cracks.inter_tension", "cracks.inter_shear"};
+  const std::array<const char*, 4> names{"cracks.intra_tension", "cracks.intra_shear", "cracks.inter_tension",
+                                         "cracks.inter_shear"};
   for (std::size_t k = 0; k < 4; ++k) record.results.emplace_back(names[k], n[k]);
   add_shares(record, body);
   record.results.emplace_back("energy_residual", 2.2e-4);
@@ -357,23 +384,32 @@ void finish(dem::Record& record, const Body& body, const CrackList& list) {
   record.results.emplace_back("particles", static_cast<double>(body.radius.size()));
   record.results.emplace_back("contacts", static_cast<double>(body.pairs.size()));
   record.results.emplace_back("grains", static_cast<double>(body.seed.size()));
-  record.checks = {{"energy_residual", 2.2e-4, 1e-2, true, "The largest residual of the energy ledger over the work done."},
-                   {"equilibrium", 0.006, 0.02, true, "The forces on the two platens differ by no more than this share."}};
+  record.checks = {
+      {"energy_residual", 2.2e-4, 1e-2, true, "The largest residual of the energy ledger over the work done."},
+      {"equilibrium", 0.006, 0.02, true, "The forces on the two platens differ by no more than this share."}};
 }
 
 }  // namespace
 
 dem::Record compression(double aspect_ratio, const Options& options) {
   const Body body = body_of(aspect_ratio, options);
-  const Curve c{.modulus = 70e9, .peak = 1e6 * options.ucs_MPa * (1.02 - 0.02 * aspect_ratio), .peak_strain = 3.6e-3, .end_strain = 4.1e-3};
+  const Curve c{.modulus = 70e9,
+                .peak = 1e6 * options.ucs_MPa * (1.02 - 0.02 * aspect_ratio),
+                .peak_strain = 3.6e-3,
+                .end_strain = 4.1e-3};
   const CrackList list = cracks_of(body, options, aspect_ratio, c.peak_strain);
   dem::Record record = start("compression", aspect_ratio, body, options);
   record.tables.push_back(cracks_table(list));
   record.tables.push_back(history_table(c, list, options));
   add_snapshots(record, c, list);
-  record.results = {{"young_modulus_GPa", 70.3}, {"poisson_ratio", 0.166}, {"ucs_MPa", 1e-6 * c.peak}, {"peak_strain", c.peak_strain},
-                    {"crack_initiation_MPa.axial_stiffness", 72.5}, {"crack_initiation_MPa.strain_0_1_percent", 69.7 - aspect_ratio},
-                    {"crack_initiation_MPa.one_percent_of_cracks", 81.0}, {"crack_damage_MPa", 1e-6 * stress_at(c, 0.8 * c.peak_strain)},
+  record.results = {{"young_modulus_GPa", 70.3},
+                    {"poisson_ratio", 0.166},
+                    {"ucs_MPa", 1e-6 * c.peak},
+                    {"peak_strain", c.peak_strain},
+                    {"crack_initiation_MPa.axial_stiffness", 72.5},
+                    {"crack_initiation_MPa.strain_0_1_percent", 69.7 - aspect_ratio},
+                    {"crack_initiation_MPa.one_percent_of_cracks", 81.0},
+                    {"crack_damage_MPa", 1e-6 * stress_at(c, 0.8 * c.peak_strain)},
                     {"crack_damage_strain", 0.8 * c.peak_strain}};
   finish(record, body, list);
   return record;
@@ -381,23 +417,30 @@ dem::Record compression(double aspect_ratio, const Options& options) {
 
 dem::Record direct_tension(double aspect_ratio, const Options& options) {
   const Body body = body_of(aspect_ratio, options);
-  const Curve c{.modulus = 55e9, .peak = 1e6 * options.ts_MPa * (1.03 - 0.03 * aspect_ratio), .peak_strain = 1.9e-4, .end_strain = 2.2e-4, .poisson = 0.12};
+  const Curve c{.modulus = 55e9,
+                .peak = 1e6 * options.ts_MPa * (1.03 - 0.03 * aspect_ratio),
+                .peak_strain = 1.9e-4,
+                .end_strain = 2.2e-4,
+                .poisson = 0.12};
   CrackList list = cracks_of(body, options, aspect_ratio, c.peak_strain);
   dem::Record record = start("direct_tension", aspect_ratio, body, options);
   record.tables.push_back(cracks_table(list));
   record.tables.push_back(history_table(c, list, options));
-  record.results = {{"young_modulus_GPa", 52.1}, {"tensile_strength_MPa", 1e-6 * c.peak}, {"peak_strain", c.peak_strain}};
+  record.results = {
+      {"young_modulus_GPa", 52.1}, {"tensile_strength_MPa", 1e-6 * c.peak}, {"peak_strain", c.peak_strain}};
   finish(record, body, list);
   return record;
 }
 
 dem::Scenario scenario(const std::filesystem::path& folder, const std::string& name, const std::string& more) {
   const std::filesystem::path file = folder / (name + ".toml");
-  dem::write_file(file, "model = \"grain_texture\"\ntitle = \"Grains of aspect ratio 1, 2 and 3 in Lac du Bonnet granite\"\n"
-                        "description = \"A made-up study for tests of the report.\"\nseed = 1\n"
-                        "include = \"" DEM_SOURCE_DIR "/scenarios/rocks/lac_du_bonnet.toml\"\n"
-                        "tests = [\"compression\", \"direct_tension\"]\n" + more +
-                        "\n[specimen]\ndiameter = \"20 mm\"\nheight = \"40 mm\"\n[scales.draft]\n");
+  dem::write_file(file,
+                  "model = \"grain_texture\"\ntitle = \"Grains of aspect ratio 1, 2 and 3 in Lac du Bonnet granite\"\n"
+                  "description = \"A made-up study for tests of the report.\"\nseed = 1\n"
+                  "include = \"" DEM_SOURCE_DIR
+                  "/scenarios/rocks/lac_du_bonnet.toml\"\n"
+                  "tests = [\"compression\", \"direct_tension\"]\n" +
+                      more + "\n[specimen]\ndiameter = \"20 mm\"\nheight = \"40 mm\"\n[scales.draft]\n");
   return dem::Scenario::read(file.string(), "draft", {}, [](std::string_view) { return dem::texture::keys(); });
 }
 
@@ -410,8 +453,10 @@ reports::StudyResult Study::result() const {
   reports::StudyResult study{&scenario_, {}};
   for (const dem::Record& record : records_) {
     const auto failed = std::ranges::find(failures_, record.case_id, [](const auto& f) { return f.first; });
-    if (failed == failures_.end()) study.cases.push_back({record.case_id, &record, ""});
-    else study.cases.push_back({record.case_id, nullptr, failed->second});
+    if (failed == failures_.end())
+      study.cases.push_back({record.case_id, &record, ""});
+    else
+      study.cases.push_back({record.case_id, nullptr, failed->second});
   }
   return study;
 }

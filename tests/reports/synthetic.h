@@ -13,8 +13,8 @@ namespace synthetic {
 
 struct Options {
   double diameter = 6e-3, height = 12e-3;  ///< m
-  int samples = 200;                        ///< of the history
-  double ucs_MPa = 205, ts_MPa = 9.5;       ///< at aspect ratio 1
+  int samples = 200;                       ///< of the history
+  double ucs_MPa = 205, ts_MPa = 9.5;      ///< at aspect ratio 1
 };
 
 dem::Record compression(double aspect_ratio, const Options& options = {});

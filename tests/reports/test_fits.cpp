@@ -65,7 +65,8 @@ TEST_CASE("envelopes recover the parameters that made their points") {
 TEST_CASE("scattered points leave the envelope inside its interval, and no nearby envelope is closer") {
   const std::vector<double> sigma_3{0, 5, 10, 20, 40, 60}, scatter{3, -4, 2, 5, -6, 1};
   std::vector<double> sigma_1;
-  for (std::size_t i = 0; i < sigma_3.size(); ++i) sigma_1.push_back(reports::hoek_brown(sigma_3[i], 206, 29, 1) + scatter[i]);
+  for (std::size_t i = 0; i < sigma_3.size(); ++i)
+    sigma_1.push_back(reports::hoek_brown(sigma_3[i], 206, 29, 1) + scatter[i]);
   const auto fit = reports::fit_peak_envelope(sigma_3, sigma_1);
   REQUIRE(fit);
   CHECK(fit->m.low < 29);
@@ -74,7 +75,8 @@ TEST_CASE("scattered points leave the envelope inside its interval, and no nearb
   CHECK(fit->sigma_c.high > 206);
   const auto squares = [&](double sigma_c, double m) {
     double sum = 0;
-    for (std::size_t i = 0; i < sigma_3.size(); ++i) sum += std::pow(sigma_1[i] - reports::hoek_brown(sigma_3[i], sigma_c, m, 1), 2);
+    for (std::size_t i = 0; i < sigma_3.size(); ++i)
+      sum += std::pow(sigma_1[i] - reports::hoek_brown(sigma_3[i], sigma_c, m, 1), 2);
     return sum;
   };
   const double best = squares(fit->sigma_c.value, fit->m.value);
@@ -101,7 +103,8 @@ TEST_CASE("m alone is found when sigma_c is known, and no nearby m is closer") {
   CHECK(fit->m.high > 29);
   const auto squares = [&](double m) {
     double sum = 0;
-    for (std::size_t i = 0; i < sigma_3.size(); ++i) sum += std::pow(sigma_1[i] - reports::hoek_brown(sigma_3[i], 206, m, 1), 2);
+    for (std::size_t i = 0; i < sigma_3.size(); ++i)
+      sum += std::pow(sigma_1[i] - reports::hoek_brown(sigma_3[i], 206, m, 1), 2);
     return sum;
   };
   for (const double step : {-0.05, 0.05}) CHECK(squares(fit->m.value + step) > squares(fit->m.value));
@@ -113,7 +116,8 @@ TEST_CASE("what cannot be fitted is not") {
   CHECK_FALSE(reports::fit_peak_envelope(std::vector{10.0, 10.0}, std::vector{200.0, 210.0}));
   CHECK_FALSE(reports::fit_peak_envelope(std::vector{0.0, 10.0}, std::vector{200.0, std::nan("")}));
   CHECK_FALSE(reports::fit_damage_envelope(std::vector{0.0, 10.0}, std::vector{100.0, 150.0}, 0));
-  const auto two = reports::fit_peak_envelope(std::vector{0.0, 20.0}, std::vector{206.0, reports::hoek_brown(20, 206, 29, 1)});
+  const auto two =
+      reports::fit_peak_envelope(std::vector{0.0, 20.0}, std::vector{206.0, reports::hoek_brown(20, 206, 29, 1)});
   REQUIRE(two);
   CHECK(two->m.value == Approx(29));
   CHECK_FALSE(two->m.has_interval());

@@ -33,12 +33,16 @@ struct Made {
     static const dem::Record record = synthetic::compression(1, small);
     return record;
   }
-  dem::Record& add(const std::string& id, const std::string& test, double pressure, double dip, const std::string& mineral, double seed) {
+  dem::Record& add(const std::string& id, const std::string& test, double pressure, double dip,
+                   const std::string& mineral, double seed) {
     dem::Record record = pattern();
     record.case_id = id;
-    record.parameters = {{"test", test}, {"aspect_ratio", 1.0}, {"dip", dip}, {"mineral", mineral},
-                         {"confining_pressure_MPa", pressure}, {"seed", seed}};
-    std::erase_if(record.results, [](const auto& r) { return r.first == "ucs_MPa" || r.first == "crack_damage_MPa" || r.first == "crack_initiation_MPa.axial_stiffness"; });
+    record.parameters = {
+        {"test", test}, {"aspect_ratio", 1.0}, {"dip", dip}, {"mineral", mineral}, {"confining_pressure_MPa", pressure},
+        {"seed", seed}};
+    std::erase_if(record.results, [](const auto& r) {
+      return r.first == "ucs_MPa" || r.first == "crack_damage_MPa" || r.first == "crack_initiation_MPa.axial_stiffness";
+    });
     records.push_back(record);
     return records.back();
   }
@@ -47,7 +51,8 @@ struct Made {
     if (pressure > 0) id += "_sigma3_" + std::to_string(static_cast<int>(pressure));
     if (seed > 1) id += "_seed_" + std::to_string(static_cast<int>(seed));
     auto& results = add(id, "compression", pressure, 0, mineral, seed).results;
-    results.emplace_back(pressure > 0 ? "confined_strength_MPa" : "ucs_MPa", reports::hoek_brown(pressure, 206, 29, 1) + more);
+    results.emplace_back(pressure > 0 ? "confined_strength_MPa" : "ucs_MPa",
+                         reports::hoek_brown(pressure, 206, 29, 1) + more);
     results.emplace_back("crack_damage_MPa", reports::hoek_brown(pressure, 206, 16, 0.6) + more);
     results.emplace_back("crack_initiation_MPa.axial_stiffness", 71.1 + 1.1 * pressure);
     results.emplace_back("residual_over_peak", 0.2 + 0.01 * pressure);
@@ -98,7 +103,9 @@ TEST_CASE("figures under confinement say what the records hold") {
   CHECK(reports::texture::crack_orientation(made.study()).panels.size() == 3);
   const auto counts = reports::texture::confinement_crack_counts(made.study());
   CHECK(counts.panels.size() == 2);
-  CHECK(std::ranges::all_of(counts.panels, [](const reports::Panel& p) { return std::get<render::Chart>(p.content).x.title.find("σ₃") != std::string::npos; }));
+  CHECK(std::ranges::all_of(counts.panels, [](const reports::Panel& p) {
+    return std::get<render::Chart>(p.content).x.title.find("σ₃") != std::string::npos;
+  }));
 }
 
 TEST_CASE("stresses after the peak are compared at one strain after it, as far as the shortest test goes") {
@@ -118,7 +125,8 @@ TEST_CASE("stresses after the peak are compared at one strain after it, as far a
     auto& tables = made.records.back().tables;
     *std::ranges::find(tables, "history", &dem::Table::name) = history;
   }
-  CHECK(has(reports::texture::confinement_after_peak(made.study()).finding, "At 0.30 % of strain after the peak the stress is 0.40, 0.50 and 0.80 of the peak"));
+  CHECK(has(reports::texture::confinement_after_peak(made.study()).finding,
+            "At 0.30 % of strain after the peak the stress is 0.40, 0.50 and 0.80 of the peak"));
 }
 
 TEST_CASE("figures show what the paper states beside ours, and nothing for another rock") {
@@ -133,8 +141,11 @@ TEST_CASE("figures show what the paper states beside ours, and nothing for anoth
   for (const double pressure : {0.0, 10.0, 40.0}) made.add_confined(pressure);
   for (const double pressure : {0.0, 10.0, 40.0}) made.add_confined(pressure, "quartz", 200);
   reports::StudyResult study = made.study();
-  using reports::texture::confinement_envelopes, reports::texture::progressive_failure, reports::texture::mineral_envelopes;
-  const auto curves = [&] { return std::get<render::Chart>(mineral_envelopes(study).panels.at(0).content).series.size(); };
+  using reports::texture::confinement_envelopes, reports::texture::progressive_failure,
+      reports::texture::mineral_envelopes;
+  const auto curves = [&] {
+    return std::get<render::Chart>(mineral_envelopes(study).panels.at(0).content).series.size();
+  };
   CHECK_FALSE(has(labels(confinement_envelopes(study)), "published"));
   CHECK_FALSE(has(labels(progressive_failure(study)), "published"));
   CHECK(curves() == 2);  // points and our fit
@@ -153,8 +164,13 @@ TEST_CASE("figures show what the paper states beside ours, and nothing for anoth
   CHECK(has(mineral.rows[0][3], " / 418"));
   const auto inputs = reports::texture::input_parameters(study).panels.back();
   CHECK(std::get<reports::TextTable>(inputs.content).rows ==
-        std::vector<std::vector<std::string>>{{"density (kg/m³)", "2640"}, {"Young’s modulus (GPa)", "69–71"}, {"Poisson’s ratio", "0.26"},
-                                              {"friction coefficient", "0.6"}, {"UCS (MPa)", "200–228"}, {"TS (MPa)", "9.3–13.4"}, {"m", "28–34"}});
+        std::vector<std::vector<std::string>>{{"density (kg/m³)", "2640"},
+                                              {"Young’s modulus (GPa)", "69–71"},
+                                              {"Poisson’s ratio", "0.26"},
+                                              {"friction coefficient", "0.6"},
+                                              {"UCS (MPa)", "200–228"},
+                                              {"TS (MPa)", "9.3–13.4"},
+                                              {"m", "28–34"}});
 }
 
 TEST_CASE("figures stand with one case and with none") {
@@ -183,8 +199,10 @@ TEST_CASE("repeats give means, error bars and trends over all seeds") {
   CHECK(reports::means(cases, reports::result("crack_damage_MPa")).y_error.size() == 3);
   const auto trend = reports::trend_of(cases, reports::result("crack_damage_MPa"));
   CHECK(trend->points == 6);
-  CHECK(has(reports::trend_words(cases, reports::result("crack_damage_MPa"), "MPa", reports::texture::confining_axis), "rises by"));
-  CHECK(has(reports::trend_words(cases, reports::result("young_modulus_GPa"), "GPa", reports::texture::confining_axis), "no trend"));
+  CHECK(has(reports::trend_words(cases, reports::result("crack_damage_MPa"), "MPa", reports::texture::confining_axis),
+            "rises by"));
+  CHECK(has(reports::trend_words(cases, reports::result("young_modulus_GPa"), "GPa", reports::texture::confining_axis),
+            "no trend"));
 }
 
 TEST_CASE("published numbers of the granite are compared with fits, means and trends") {
@@ -262,7 +280,8 @@ TEST_CASE("a band of cracks is found at its angle to the axis") {
     std::vector<double> crack;
     for (std::size_t i = 0; i < volume.size(); ++i) {
       const double distance = std::cos(a) * particle[3 * i] + std::sin(a) * particle[3 * i + 2];
-      if (std::abs(distance) < 0.15) crack.insert(crack.end(), {particle[3 * i], particle[3 * i + 1], particle[3 * i + 2]});
+      if (std::abs(distance) < 0.15)
+        crack.insert(crack.end(), {particle[3 * i], particle[3 * i + 1], particle[3 * i + 2]});
     }
     const std::vector<double> area(crack.size() / 3, 1.0);
     const auto band = reports::densest_band(crack, area, particle, volume, 0.35);

@@ -35,7 +35,8 @@ Ran run(const std::string& command) {
   REQUIRE(pipe != nullptr);
   Ran ran;
   std::array<char, 4096> buffer{};
-  for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) ran.output.append(buffer.data(), n);
+  for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+    ran.output.append(buffer.data(), n);
   ran.status = ::pclose(pipe);
   return ran;
 }
@@ -147,9 +148,9 @@ TEST_CASE("links within the page and to its files lead somewhere; every picture 
 
 TEST_CASE("the page names figures, sources, verdicts and residuals") {
   const std::string html = file("report.html");
-  for (const char* text : {"Mirrors Zhao et al. 2021, Fig. 14", "Mirrors Zhao et al. 2021, Fig. 15a", "Tensile strength, AR 1",
-                           "<span>met</span>", "Energy ledger", "Packing pressure", "10.1016/j.ijrmms.2021.104971",
-                           "--scale draft", "[scales.draft]", "A made-up study"}) {
+  for (const char* text : {"Mirrors Zhao et al. 2021, Fig. 14", "Mirrors Zhao et al. 2021, Fig. 15a",
+                           "Tensile strength, AR 1", "<span>met</span>", "Energy ledger", "Packing pressure",
+                           "10.1016/j.ijrmms.2021.104971", "--scale draft", "[scales.draft]", "A made-up study"}) {
     CAPTURE(text);
     CHECK(html.find(text) != std::string::npos);
   }
@@ -158,7 +159,8 @@ TEST_CASE("the page names figures, sources, verdicts and residuals") {
 TEST_CASE("the PDF has text, embedded fonts, tags and a sane number of pages") {
   const std::string pdf = (whole().folder / "report.pdf").string();
   const Ran text = run("pdftotext '" + pdf + "' -");
-  for (const char* words : {"Published numbers beside ours", "Figure 1.", "Uniaxial compressive strength", "Energy ledger", "What to cite"}) {
+  for (const char* words : {"Published numbers beside ours", "Figure 1.", "Uniaxial compressive strength",
+                            "Energy ledger", "What to cite"}) {
     CAPTURE(words);
     CHECK(text.output.find(words) != std::string::npos);
   }
@@ -209,7 +211,8 @@ TEST_CASE("records without their tables give notes, not crashes; --only draws on
   REQUIRE(summary.at("figures").size() == 1);
   CHECK(summary["figures"][0].at("id") == "energy_tension");
   options.only = "no_such_figure";
-  CHECK_THROWS_WITH_AS(reports::make_report(study.result(), options, canvas, {}), doctest::Contains("crack_maps"), dem::InputError);
+  CHECK_THROWS_WITH_AS(reports::make_report(study.result(), options, canvas, {}), doctest::Contains("crack_maps"),
+                       dem::InputError);
 }
 
 TEST_CASE("a scenario of one's own shows the figures of its model that have something to draw") {
@@ -224,7 +227,7 @@ TEST_CASE("a scenario of one's own shows the figures of its model that have some
   for (const auto& figure : summary.at("figures")) ids.insert(figure.at("id").get<std::string>());
   CHECK(ids.contains("specimen"));
   CHECK(ids.contains("energy_compression"));
-  CHECK_FALSE(ids.contains("energy_tension"));      // no test in tension
+  CHECK_FALSE(ids.contains("energy_tension"));  // no test in tension
   CHECK_FALSE(ids.contains("confinement_after_peak"));
   CHECK_FALSE(ids.contains("genesis_steps"));
   const std::string html = dem::read_file(scratch / "out/report.html");
@@ -234,16 +237,19 @@ TEST_CASE("a scenario of one's own shows the figures of its model that have some
 
 TEST_CASE("an error in WeasyPrint's log fails the run and leaves no PDF") {
   const test::Scratch scratch;
-  const std::string html = "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>x</title></head><body>"
-                           "<img alt=\"gone\" src=\"gone.png\"></body></html>";
-  CHECK_THROWS_WITH_AS(reports::print_pdf(html, assets / "print.css", scratch / "x.pdf"), doctest::Contains("ERROR"), dem::EnvironmentError);
+  const std::string html =
+      "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>x</title></head><body>"
+      "<img alt=\"gone\" src=\"gone.png\"></body></html>";
+  CHECK_THROWS_WITH_AS(reports::print_pdf(html, assets / "print.css", scratch / "x.pdf"), doctest::Contains("ERROR"),
+                       dem::EnvironmentError);
   CHECK_FALSE(std::filesystem::exists(scratch / "x.pdf"));
 }
 
 TEST_CASE("the PDF's bytes do not hang on the folder that the report is in") {
   const test::Scratch scratch;
-  const std::string html = "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>x</title></head><body>"
-                           "<img alt=\"a drop\" src=\"figures/drop.png\"></body></html>";
+  const std::string html =
+      "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>x</title></head><body>"
+      "<img alt=\"a drop\" src=\"figures/drop.png\"></body></html>";
   std::filesystem::path picture;
   for (const auto& file : std::filesystem::directory_iterator(whole().folder / "figures")) {
     if (file.path().extension() == ".png") picture = file.path();

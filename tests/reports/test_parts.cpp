@@ -35,7 +35,8 @@ TEST_CASE("numbers as a reader sees them") {
 }
 
 TEST_CASE("CSV quotes what needs it and keeps every point") {
-  CHECK(reports::csv(reports::TextTable{{"a", "b"}, {{"x, y", "say \"z\""}}}) == "a,b\r\n\"x, y\",\"say \"\"z\"\"\"\r\n");
+  CHECK(reports::csv(reports::TextTable{{"a", "b"}, {{"x, y", "say \"z\""}}}) ==
+        "a,b\r\n\"x, y\",\"say \"\"z\"\"\"\r\n");
   render::Chart chart;
   chart.x.title = "Strain (%)";
   chart.left.title = "Stress (MPa)";
@@ -88,7 +89,8 @@ TEST_CASE("base64 and links") {
   CHECK(reports::base64("") == "");
   CHECK(reports::base64("f") == "Zg==");
   CHECK(reports::base64("foobar") == "Zm9vYmFy");
-  CHECK(reports::without_file_links(R"(<a href="figures/a.png">PNG</a> <a href="data/a.csv">CSV</a> <a href="#x">x</a>)") ==
+  CHECK(reports::without_file_links(
+            R"(<a href="figures/a.png">PNG</a> <a href="data/a.csv">CSV</a> <a href="#x">x</a>)") ==
         R"(<a>PNG</a> <a>CSV</a> <a href="#x">x</a>)");
 }
 
@@ -124,13 +126,15 @@ TEST_CASE("summary.json has the promised structure") {
   for (const char* key : {"value", "limit", "held"}) CHECK(json["checks"][0].contains(key));
   REQUIRE_FALSE(json.at("comparisons").empty());
   for (const auto& row : json["comparisons"]) {
-    for (const char* key : {"id", "source", "published", "computed", "deviation", "tolerance", "verdict"}) CHECK(row.contains(key));
+    for (const char* key : {"id", "source", "published", "computed", "deviation", "tolerance", "verdict"})
+      CHECK(row.contains(key));
   }
   CHECK(text == reports::summary_json(study.result(), comparisons, {}));
 }
 
 TEST_CASE("run.json nests by dots") {
-  const auto json = nlohmann::json::parse(reports::run_json({{"host", "here"}, {"wall_s.total", 1.5}, {"wall_s.report", 2.0}}));
+  const auto json =
+      nlohmann::json::parse(reports::run_json({{"host", "here"}, {"wall_s.total", 1.5}, {"wall_s.report", 2.0}}));
   CHECK(json.at("host") == "here");
   CHECK(json.at("wall_s").at("total") == 1.5);
 }

@@ -39,13 +39,14 @@ struct Fixture {
   }
 
   [[nodiscard]] std::vector<Comparison> compared(const std::string& numbers, const reports::StudyResult& study) const {
-    dem::write_file(scratch / "published/paper.json", R"({"model": "grain_texture", "paper": "P", "scale": "paper", "numbers": [)" +
-                                                          numbers + "]}");
+    dem::write_file(scratch / "published/paper.json",
+                    R"({"model": "grain_texture", "paper": "P", "scale": "paper", "numbers": [)" + numbers + "]}");
     return reports::compare(study, scratch / "published").rows;
   }
   [[nodiscard]] Comparison one(const std::string& rest) const { return one(rest, study()); }
   [[nodiscard]] Comparison one(const std::string& rest, const reports::StudyResult& study) const {
-    const auto rows = compared(R"({"id": "x", "scenarios": ["ldb_aspect_ratio"], "source": "S", "quantity": "Q", )" + rest + "}", study);
+    const auto rows = compared(
+        R"({"id": "x", "scenarios": ["ldb_aspect_ratio"], "source": "S", "quantity": "Q", )" + rest + "}", study);
     REQUIRE(rows.size() == 1);
     return rows[0];
   }
@@ -96,7 +97,8 @@ TEST_CASE_FIXTURE(Fixture, "terms: quotients, sums, differences, factors") {
 }
 
 TEST_CASE_FIXTURE(Fixture, "a trend is judged by the sign of its slope") {
-  const std::string falls = R"("kind": "trend", "published": "falls", "over": ["1", "2", "3"], "of": {"case": "compression_ar_{}", "result": "ucs_MPa"})";
+  const std::string falls =
+      R"("kind": "trend", "published": "falls", "over": ["1", "2", "3"], "of": {"case": "compression_ar_{}", "result": "ucs_MPa"})";
   const Comparison row = one(falls);
   CHECK(row.verdict == Verdict::met);
   CHECK(std::get<std::string>(*row.computed) == "falls");
@@ -109,7 +111,8 @@ TEST_CASE_FIXTURE(Fixture, "a trend is judged by the sign of its slope") {
 }
 
 TEST_CASE_FIXTURE(Fixture, "a trend over several seeds must stand out of their scatter") {
-  const std::string falls = R"("kind": "trend", "published": "falls", "over": ["1", "2", "3"], "of": {"case": "compression_ar_{}", "result": "ucs_MPa"})";
+  const std::string falls =
+      R"("kind": "trend", "published": "falls", "over": ["1", "2", "3"], "of": {"case": "compression_ar_{}", "result": "ucs_MPa"})";
   const auto repeated = [&](double scatter) {
     records.resize(3);
     for (int ar = 1; ar <= 3; ++ar) {
@@ -135,7 +138,8 @@ TEST_CASE_FIXTURE(Fixture, "steps of a trend may have a fraction") {
   records[0].results[0].second = 10;
   records[1].results[0].second = 15;
   records[2].results[0].second = 40;
-  const Comparison row = one(R"("kind": "trend", "published": "rises", "over": ["1", "1_5", "4"], "of": {"case": "compression_ar_{}", "result": "ucs_MPa"})");
+  const Comparison row = one(
+      R"("kind": "trend", "published": "rises", "over": ["1", "1_5", "4"], "of": {"case": "compression_ar_{}", "result": "ucs_MPa"})");
   CHECK(row.verdict == Verdict::met);
   CHECK(row.detail.find("slope 10 ") != std::string::npos);
 }
@@ -171,9 +175,11 @@ TEST_CASE_FIXTURE(Fixture, "what is missing is not computed, and says why") {
 }
 
 TEST_CASE_FIXTURE(Fixture, "numbers of other scenarios and optional ones without a case are left out") {
-  const std::string entry = R"({"id": "x", "scenarios": ["other"], "source": "S", "quantity": "Q", )" + value("1", R"({"relative": 1})") + "}";
+  const std::string entry = R"({"id": "x", "scenarios": ["other"], "source": "S", "quantity": "Q", )" +
+                            value("1", R"({"relative": 1})") + "}";
   CHECK(compared(entry, study()).empty());
-  const std::string optional = R"({"id": "x", "optional": true, "scenarios": ["ldb_aspect_ratio"], "source": "S", "quantity": "Q", "kind": "value",
+  const std::string optional =
+      R"({"id": "x", "optional": true, "scenarios": ["ldb_aspect_ratio"], "source": "S", "quantity": "Q", "kind": "value",
     "published": 1, "tolerance": {"relative": 1}, "of": {"case": "compression_ar_9", "result": "ucs_MPa"}})";
   CHECK(compared(optional, study()).empty());
 }
@@ -202,12 +208,13 @@ TEST_CASE("the published numbers of the grain texture model can be read and have
 }
 
 TEST_CASE_FIXTURE(Fixture, "figures are given every value and range of the paper, compared or quoted") {
-  dem::write_file(scratch / "published/paper.json",
-                  R"({"model": "grain_texture", "paper": "P", "numbers": [)"
-                  R"({"id": "a", "scenarios": ["another"], "source": "S", "quantity": "Q", "unit": "MPa", )" +
-                      value("206.8", R"({"relative": 0.1})") +
-                      R"(}, {"id": "t", "scenarios": [], "source": "S", "quantity": "Q", "kind": "trend", "published": "rises"}], )"
-                      R"("quoted": [{"id": "b", "source": "T", "quantity": "R", "published": [2, 3]}]})");
+  dem::write_file(
+      scratch / "published/paper.json",
+      R"({"model": "grain_texture", "paper": "P", "numbers": [)"
+      R"({"id": "a", "scenarios": ["another"], "source": "S", "quantity": "Q", "unit": "MPa", )" +
+          value("206.8", R"({"relative": 0.1})") +
+          R"(}, {"id": "t", "scenarios": [], "source": "S", "quantity": "Q", "kind": "trend", "published": "rises"}], )"
+          R"("quoted": [{"id": "b", "source": "T", "quantity": "R", "published": [2, 3]}]})");
   dem::write_file(scratch / "published/other.json", R"({"model": "sheet", "paper": "P", "numbers": [{"broken": 1}]})");
   auto known = study();
   known.published = reports::published_numbers(known, scratch / "published");
@@ -226,16 +233,18 @@ TEST_CASE("the lattice's figures take what the paper states from its file") {
                                                      [](std::string_view) { return dem::lattice::keys(); });
   dem::Record record;
   record.parameters = {{"test", "compression"}, {"elements_y", 4.0}};
-  record.results = {{"normal_stiffness_N_per_m", 46.794e6},  {"shear_stiffness_N_per_m", 8.068e6},
-                    {"breaking_displacement_m", 1.704e-7},   {"initial_shear_resistance_N", 18.452},
-                    {"contact_friction", 0.3964},            {"element_mass_kg", 1.02 * 1.874e-6},
+  record.results = {{"normal_stiffness_N_per_m", 46.794e6}, {"shear_stiffness_N_per_m", 8.068e6},
+                    {"breaking_displacement_m", 1.704e-7},  {"initial_shear_resistance_N", 18.452},
+                    {"contact_friction", 0.3964},           {"element_mass_kg", 1.02 * 1.874e-6},
                     {"opening_stress_theory_MPa", 95.9}};
   record.tables.push_back({.name = "particles", .attributes = {}, .columns = {}});
   reports::StudyResult study{&scenario, {{"compression_n_4", &record, ""}}};
   CHECK(reports::lattice::parameters(study).finding.empty());
   study.published = reports::published_numbers(study, DEM_SOURCE_DIR "/assets/published");
-  CHECK(reports::lattice::parameters(study).finding == "The largest deviation from the six published parameters is 2.000 %.");
-  for (const char* id : {"unit_tensile_strength", "mean_tensile_strength", "unit_compressive_strength", "mean_compressive_strength"}) {
+  CHECK(reports::lattice::parameters(study).finding ==
+        "The largest deviation from the six published parameters is 2.000 %.");
+  for (const char* id :
+       {"unit_tensile_strength", "mean_tensile_strength", "unit_compressive_strength", "mean_compressive_strength"}) {
     CAPTURE(id);
     CHECK(study.published_value(id) < 0);
   }

@@ -25,7 +25,8 @@ std::map<std::string, std::string> files_in(const std::filesystem::path& folder)
   return files;
 }
 
-reports::ReportOutcome report(const synthetic::Study& study, const std::filesystem::path& folder, const char* figure, int workers) {
+reports::ReportOutcome report(const synthetic::Study& study, const std::filesystem::path& folder, const char* figure,
+                              int workers) {
   reports::ReportOptions options;
   options.folder = folder;
   options.assets = std::filesystem::path(DEM_SOURCE_DIR) / "assets";
@@ -44,7 +45,8 @@ reports::ReportOutcome report(const synthetic::Study& study, const std::filesyst
 
 TEST_CASE("results stand in the order of the pieces, whoever did them") {
   for (const int workers : {1, 2, 5}) {
-    const auto squares = reports::in_processes<double>(37, workers, [](std::size_t i) { return static_cast<double>(i * i); });
+    const auto squares =
+        reports::in_processes<double>(37, workers, [](std::size_t i) { return static_cast<double>(i * i); });
     REQUIRE(squares.size() == 37);
     for (std::size_t i = 0; i < squares.size(); ++i) CHECK(squares[i] == static_cast<double>(i * i));
   }
@@ -59,7 +61,8 @@ TEST_CASE("what a process throws, or a signal that ends it, reaches the caller")
     });
   };
   CHECK_THROWS_WITH_AS(run([] { throw dem::EnvironmentError("no font"); }), "no font", dem::EnvironmentError);
-  CHECK_THROWS_WITH_AS(run([] { throw std::invalid_argument("columns differ"); }), "columns differ", std::runtime_error);
+  CHECK_THROWS_WITH_AS(run([] { throw std::invalid_argument("columns differ"); }), "columns differ",
+                       std::runtime_error);
   CHECK_THROWS_WITH_AS(run([] { std::raise(SIGKILL); }), doctest::Contains("ended by signal"), dem::EnvironmentError);
 }
 

@@ -37,7 +37,8 @@ inline dem::texture::PackingSettings granite_packing(double diameter, std::uint6
 
 inline std::vector<dem::texture::MineralGrains> granite_minerals() {
   std::vector<dem::texture::MineralGrains> grains;
-  for (const dem::texture::Mineral& m : granite(10, 20).minerals) grains.push_back({m.share, m.diameter_min, m.diameter_max});
+  for (const dem::texture::Mineral& m : granite(10, 20).minerals)
+    grains.push_back({m.share, m.diameter_min, m.diameter_max});
   return grains;
 }
 
