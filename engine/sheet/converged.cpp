@@ -48,12 +48,17 @@ struct ConvergedSolver::Impl {
   double worth = 0;                 // solves that cost as much as the last factorisation
   Patches patches;
   std::vector<double> u;  // load, then displacement, in elimination order
+  TangentOperator operator_of_state;
+  struct Directions {
+    std::vector<double> r, p, z, vx, vy, wx, wy;
+  } directions;  // of conjugate gradients: kept, for their memory costs more than their numbers
 
   Impl(const Sheet& sheet, ConvergedSettings s)
       : settings(s),
         dissection(sheet.lattice),
         factor(dissection, s.threads, Factor::Again::parts),
-        patches(s.threads) {
+        patches(s.threads),
+        operator_of_state(s.threads) {
     u.assign(2 * static_cast<std::size_t>(sheet.particles()), 0.0);
     heat.assign(static_cast<std::size_t>(tiles_across() * tiles_up()), 0.0);
     node_of_slot = nodes_of_slots(sheet);
@@ -314,8 +319,12 @@ struct ConvergedSolver::Impl {
   // Conjugate gradients on the true tangent: u = K^-1 u to `share` of the first residual. Returns solves made.
   int newton_direction(const Sheet& sheet, const Forces& forces, double share, int most) {
     const auto n = u.size() / 2;
-    const TangentOperator tangent(sheet, forces, settings.threads);
-    std::vector<double> r = u, p(2 * n), z(2 * n), vx(n), vy(n), wx(n), wy(n);
+    operator_of_state.update(sheet, forces);
+    auto& [r, p, z, vx, vy, wx, wy] = directions;
+    r = u;
+    for (auto* v : {&p, &z}) v->resize(2 * n);
+    for (auto* v : {&vx, &vy, &wx, &wy}) v->resize(n);
+    std::fill(p.begin(), p.end(), 0.0);
     std::fill(u.begin(), u.end(), 0.0);
     const double start = largest(r);
     int solves = 0;
@@ -334,7 +343,7 @@ struct ConvergedSolver::Impl {
         const auto i = static_cast<std::size_t>(dissection.order[at]);
         vx[i] = p[2 * at], vy[i] = p[2 * at + 1];
       }
-      tangent.apply(vx, vy, wx, wy);
+      operator_of_state.apply(vx, vy, wx, wy);
       std::vector<double>& q = z;  // K p
 #pragma omp parallel for schedule(static) num_threads(settings.threads)
       for (std::size_t at = 0; at < n; ++at) {

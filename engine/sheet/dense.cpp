@@ -14,6 +14,7 @@ namespace {
 typedef double V4 __attribute__((vector_size(32)));
 typedef float F4 __attribute__((vector_size(16)));
 typedef float F8 __attribute__((vector_size(32)));
+typedef float F16 __attribute__((vector_size(64)));
 typedef std::int32_t I8 __attribute__((vector_size(32)));
 
 constexpr int block = 48;         // columns eliminated together
@@ -164,40 +165,59 @@ DEM_CLONES void solve_stripe(float* x, int w, const float* d) {
 }
 
 // Columns first + [from, to) and the rows below their diagonal -= P P^T, P packed in stripes of rows, stripe by stripe,
-// column by column. `from` is a multiple of four.
-DEM_CLONES void update_trailing(const Front& front, int first, int w, const float* packed, int from, int to) {
+// `at_once` columns at a time. `from` is a multiple of that.
+template <class V, int at_once>
+inline __attribute__((always_inline)) void subtract_products(const Front& front, int first, int w, const float* packed,
+                                                             int from, int to) {
+  constexpr int lanes = static_cast<int>(sizeof(V) / sizeof(float)), vectors = stripe / lanes;
   const int m = front.panel.nf - first;
-  for (int j0 = from; j0 < to; j0 += 4) {
+  for (int j0 = from; j0 < to; j0 += at_once) {
     const float* b =
         packed + static_cast<std::size_t>(j0 / stripe) * static_cast<std::size_t>(stripe * w) + j0 % stripe;
-    const int columns = std::min(4, m - j0);
-    float* out[4];
+    const int columns = std::min(at_once, m - j0);
+    float* out[at_once];
     for (int q = 0; q < columns; ++q) out[q] = front.column(first + j0 + q) + first;
     for (int i0 = j0 / stripe * stripe; i0 < m; i0 += stripe) {
       const float* p = packed + static_cast<std::size_t>(i0 / stripe) * static_cast<std::size_t>(stripe * w);
-      F8 c[4][2] = {};
+      V c[at_once][vectors] = {};
       for (int k = 0; k < w; ++k) {
-        const F8 x0 = load8(p + stripe * k), x1 = load8(p + stripe * k + 8);
-        for (int q = 0; q < 4; ++q) {
+        V x[vectors];
+        std::memcpy(x, p + stripe * k, sizeof x);
+        for (int q = 0; q < at_once; ++q) {
           const float y = b[stripe * k + q];
-          c[q][0] += x0 * y;
-          c[q][1] += x1 * y;
+          for (int v = 0; v < vectors; ++v) c[q][v] += x[v] * y;
         }
       }
-      if (i0 >= j0 + 4 && i0 + stripe <= m && columns == 4) {
-        for (int q = 0; q < 4; ++q) {
-          store(out[q] + i0, load8(out[q] + i0) - c[q][0]);
-          store(out[q] + i0 + 8, load8(out[q] + i0 + 8) - c[q][1]);
+      if (i0 >= j0 + at_once && i0 + stripe <= m && columns == at_once) {
+        for (int q = 0; q < at_once; ++q) {
+          V old[vectors];
+          std::memcpy(old, out[q] + i0, sizeof old);
+          for (int v = 0; v < vectors; ++v) old[v] -= c[q][v];
+          std::memcpy(out[q] + i0, old, sizeof old);
         }
       } else {
-        float tile[4][stripe];
-        for (int q = 0; q < 4; ++q) store(tile[q], c[q][0]), store(tile[q] + 8, c[q][1]);
+        float tile[at_once][stripe];
+        std::memcpy(tile, c, sizeof tile);
         for (int q = 0; q < columns; ++q) {
           for (int i = std::max(i0, j0 + q); i < std::min(i0 + stripe, m); ++i) out[q][i] -= tile[q][i - i0];
         }
       }
     }
   }
+}
+// The widest has twice the registers: it takes more columns at a time.
+constexpr int most_at_once = 8;
+__attribute__((target("default"))) void update_trailing(const Front& front, int first, int w, const float* packed,
+                                                        int from, int to) {
+  subtract_products<F8, 4>(front, first, w, packed, from, to);
+}
+__attribute__((target("avx2"))) void update_trailing(const Front& front, int first, int w, const float* packed,
+                                                     int from, int to) {
+  subtract_products<F8, 4>(front, first, w, packed, from, to);
+}
+__attribute__((target("avx512f"))) void update_trailing(const Front& front, int first, int w, const float* packed,
+                                                        int from, int to) {
+  subtract_products<F16, most_at_once>(front, first, w, packed, from, to);
 }
 
 // `columns` holds eight columns of 8 * squares rows each. Vectors hold {column q row 2 k, column q row 2 k + 1, ...} of
@@ -347,7 +367,8 @@ int partial_cholesky(const Panel<float>& panel, const Packed<float>& rest, std::
 #pragma omp taskgroup
     for (int from = 0; from < m;) {
       // Columns get shorter: the last parts are wider.
-      const int to = shared ? std::min(m, from + std::max(32, m * m / (16 * (m - from)) / 4 * 4)) : m;
+      const int part = m * m / (16 * (m - from)) / most_at_once * most_at_once;
+      const int to = shared ? std::min(m, from + std::max(32, part)) : m;
 #pragma omp task if (shared) default(shared) firstprivate(from, to)
       update_trailing(front, first, w, packed.data(), from, to);
       from = to;

@@ -63,6 +63,48 @@ Dissection::Dissection(const Lattice& sheet, int leaf_particles) : lattice(sheet
     update_offset.push_back(update_size);
     update_size += 2 * node.boundary.size();
   }
+  find_runs();
+}
+
+int Dissection::Node::row_of(int at) const {
+  if (at < end) return at - begin;
+  return own() + static_cast<int>(std::lower_bound(boundary.begin(), boundary.end(), at) - boundary.begin());
+}
+
+void Dissection::find_runs() {
+  const auto add = [](std::vector<Run>& runs, std::size_t first, int from, int to, bool apart) {
+    if (runs.size() > first && !apart && runs.back().from + runs.back().count == from &&
+        runs.back().to + runs.back().count == to) {
+      ++runs.back().count;
+    } else {
+      runs.push_back({from, to, 1});
+    }
+  };
+  for (const Node& node : nodes) {
+    const std::size_t gathers = gathers_.size(), hand_ups = hand_ups_.size();
+    gathers_begin_.push_back(gathers);
+    hand_ups_begin_.push_back(hand_ups);
+    const Node* parent = node.parent < 0 ? nullptr : &nodes[static_cast<std::size_t>(node.parent)];
+    for (int k = 0; k < node.rest(); ++k) {
+      const int at = node.boundary[static_cast<std::size_t>(k)];
+      add(gathers_, gathers, at, k, false);
+      if (parent == nullptr) continue;
+      const int row = parent->row_of(at);
+      add(hand_ups_, hand_ups, k, row, row == parent->own());
+    }
+  }
+  gathers_begin_.push_back(gathers_.size());
+  hand_ups_begin_.push_back(hand_ups_.size());
+}
+
+std::span<const Dissection::Run> Dissection::gathered(int node) const {
+  const auto k = static_cast<std::size_t>(node);
+  return {gathers_.data() + gathers_begin_[k], gathers_.data() + gathers_begin_[k + 1]};
+}
+
+std::span<const Dissection::Run> Dissection::handed_up(int node) const {
+  const auto k = static_cast<std::size_t>(node);
+  return {hand_ups_.data() + hand_ups_begin_[k], hand_ups_.data() + hand_ups_begin_[k + 1]};
 }
 
 int Dissection::divide(int c0, int c1, int r0, int r1, int leaf) {
@@ -145,15 +187,6 @@ void Dissection::connect(int index, int c0, int c1, int r0, int r1) {
   for (int r = r0; r < r1; ++r) visit(c0 - 1, r), visit(c1, r);
   std::sort(node.boundary.begin(), node.boundary.end());
 
-  const auto row_of = [](const Node& n, int at) {
-    if (at < n.end) return at - n.begin;
-    const auto found = std::lower_bound(n.boundary.begin(), n.boundary.end(), at);
-    return n.own() + static_cast<int>(found - n.boundary.begin());
-  };
-  if (node.parent >= 0) {
-    const Node& parent = nodes[static_cast<std::size_t>(node.parent)];  // connected before its children
-    for (const int at : node.boundary) node.place_in_parent.push_back(row_of(parent, at));
-  }
   const int n = lattice.particles();
   for (int at = node.begin; at < node.end; ++at) {
     const int particle = order[static_cast<std::size_t>(at)];
@@ -161,7 +194,7 @@ void Dissection::connect(int index, int c0, int c1, int r0, int r1) {
       const int other = lattice.neighbour(particle, d);
       if (other < 0 || position[static_cast<std::size_t>(other)] <= at) continue;
       const int slot = d < 3 ? d * n + particle : (d - 3) * n + other;
-      node.entries.push_back({slot, row_of(node, position[static_cast<std::size_t>(other)]), at - node.begin});
+      node.entries.push_back({slot, node.row_of(position[static_cast<std::size_t>(other)]), at - node.begin});
     }
   }
 }
@@ -227,31 +260,22 @@ void Factor::eliminate(int index, Job& job) {
     x[1] = static_cast<float>(ry * cx * b[1]);
     y[1] = static_cast<float>(ry * cy * b[2]);
   }
-  struct Run {  // of boundary particles [begin, end) of a child: they lie side by side in the front
-    int begin, end, place;
-  };
-  std::vector<Run> runs;
   for (const int c : node.child) {
     if (c < 0) continue;
     const auto& child = d.nodes[static_cast<std::size_t>(c)];
     auto& update = schur_[static_cast<std::size_t>(c)];
     const Packed<float> from{update.data(), 2 * child.rest()};
-    runs.clear();
-    for (int k = 0; k < child.rest(); ++k) {
-      const int place = child.place_in_parent[static_cast<std::size_t>(k)];
-      if (runs.empty() || runs.back().place + (k - runs.back().begin) != place) runs.push_back({k, k, place});
-      runs.back().end = k + 1;
-    }
-    std::size_t run = 0;
-    for (int j = 0; j < from.m; ++j) {
-      if (j / 2 >= runs[run].end) ++run;
-      const float* in = from.column(j);
-      const int column = 2 * runs[run].place + j - 2 * runs[run].begin;
-      float* out = column < ns ? panel.column(column) : rest.column(column - ns) - ns;
-      for (std::size_t r = run; r < runs.size(); ++r) {
-        const int shift = 2 * (runs[r].place - runs[r].begin), end = 2 * runs[r].end;
+    const auto runs = d.handed_up(c);
+    for (std::size_t run = 0; run < runs.size(); ++run) {
+      for (int j = 2 * runs[run].from; j < 2 * (runs[run].from + runs[run].count); ++j) {
+        const float* in = from.column(j);
+        const int column = j + 2 * (runs[run].to - runs[run].from);
+        float* out = column < ns ? panel.column(column) : rest.column(column - ns) - ns;
+        for (std::size_t r = run; r < runs.size(); ++r) {
+          const int shift = 2 * (runs[r].to - runs[r].from), end = 2 * (runs[r].from + runs[r].count);
 #pragma GCC ivdep
-        for (int i = std::max(j, 2 * runs[r].begin); i < end; ++i) out[i + shift] += in[i];
+          for (int i = std::max(j, 2 * runs[r].from); i < end; ++i) out[i + shift] += in[i];
+        }
       }
     }
     if (again_ == Again::whole || small(index)) std::vector<float>().swap(update);
@@ -316,13 +340,12 @@ void Factor::hand_up(int index, const ThinPanel& panel, std::span<const int> chi
   const auto& node = d.nodes[static_cast<std::size_t>(index)];
   const int pad = panel.own() - panel.ns;
   for (const int c : children) {
-    const auto& child = d.nodes[static_cast<std::size_t>(c)];
-    const float* in = updates_.data() + d.update_offset[static_cast<std::size_t>(c)];
-    for (std::size_t k = 0; k < child.boundary.size(); ++k) {
-      const int place = child.place_in_parent[k];
-      const auto row = static_cast<std::size_t>(2 * place + (place < node.own() ? 0 : pad));
-      t[row] += in[2 * k];
-      t[row + 1] += in[2 * k + 1];
+    const float* updates = updates_.data() + d.update_offset[static_cast<std::size_t>(c)];
+    for (const Dissection::Run& run : d.handed_up(c)) {
+      const float* in = updates + 2 * run.from;
+      float* out = t.data() + 2 * run.to + (run.to < node.own() ? 0 : pad);
+#pragma GCC ivdep
+      for (int k = 0; k < 2 * run.count; ++k) out[k] += in[k];
     }
   }
   panel_forward(panel, t.data());
@@ -377,11 +400,10 @@ void Factor::backward_node(int index, float* x, std::vector<float>& t) {
   std::copy(own, own + panel.ns, t.begin());
   std::fill(t.begin() + panel.ns, t.begin() + panel.own(), 0.0F);
   float* rest = t.data() + panel.own();
-  for (const int position : node.boundary) {
-    *rest++ = x[2 * position];
-    *rest++ = x[2 * position + 1];
+  for (const Dissection::Run& run : dissection_->gathered(index)) {
+    std::copy_n(x + 2 * run.from, 2 * run.count, rest + 2 * run.to);
   }
-  std::fill(rest, t.data() + panel.vector(), 0.0F);
+  std::fill(rest + 2 * node.rest(), t.data() + panel.vector(), 0.0F);
   panel_backward(panel, t.data());
   std::copy(t.begin(), t.begin() + panel.ns, own);
 }

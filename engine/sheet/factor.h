@@ -52,9 +52,8 @@ class Dissection {
     int begin = 0, end = 0;  ///< positions (particles, in elimination order) eliminated here
     int parent = -1;
     int child[2] = {-1, -1};
-    int first = 0;                     ///< first node of the subtree; the subtree is [first, itself]
-    std::vector<int> boundary;         ///< positions coupled to the subtree from outside, ascending
-    std::vector<int> place_in_parent;  ///< row (in particles) of each boundary entry in the parent's front
+    int first = 0;              ///< first node of the subtree; the subtree is [first, itself]
+    std::vector<int> boundary;  ///< positions coupled to the subtree from outside, ascending
     struct Entry {
       int coupling;     ///< index into BlockMatrix::coupling
       int row, column;  ///< in particles, within the front
@@ -63,7 +62,17 @@ class Dissection {
     [[nodiscard]] int own() const { return end - begin; }
     [[nodiscard]] int front() const { return own() + static_cast<int>(boundary.size()); }
     [[nodiscard]] int rest() const { return static_cast<int>(boundary.size()); }
+    /// Row (in particles) of a position in the front.
+    [[nodiscard]] int row_of(int at) const;
   };
+  /// Particles that lie side by side in two places: `count` of them from `from` in one and from `to` in the other. The
+  /// boundary of a box has few of these, and sweeps copy them as they are.
+  struct Run {
+    int from, to, count;
+  };
+  [[nodiscard]] std::span<const Run> gathered(int node) const;   ///< from positions to rows of the node's boundary
+  [[nodiscard]] std::span<const Run> handed_up(int node) const;  ///< from these to rows of the parent's front; none
+                                                                 ///< reaches over the end of the parent's own
   Lattice lattice;
   std::vector<Node> nodes;    ///< children before parents; the last is the root
   std::vector<int> order;     ///< particle at each position
@@ -76,6 +85,10 @@ class Dissection {
  private:
   int divide(int c0, int c1, int r0, int r1, int leaf);
   void connect(int node, int c0, int c1, int r0, int r1);
+  void find_runs();
+
+  std::vector<Run> gathers_, hand_ups_;                     // of one node after the other
+  std::vector<std::size_t> gathers_begin_, hand_ups_begin_;  // of each node, and the end
 };
 
 /// The entries of L^-1 b for a load b on few particles: nonzero on the path from their nodes to the root.

@@ -71,10 +71,11 @@ BlockMatrix assemble(const Sheet& s, const Forces& f, Tangent tangent) {
   return m;
 }
 
-TangentOperator::TangentOperator(const Sheet& s, const Forces& f, int threads)
-    : sheet_(&s), threads_(threads), xx_(f.tension.size()), xy_(f.tension.size()), yy_(f.tension.size()) {
+void TangentOperator::update(const Sheet& s, const Forces& f) {
+  sheet_ = &s;
+  for (auto* v : {&xx_, &xy_, &yy_}) v->resize(f.tension.size());
   const int n = s.particles(), rows = s.lattice.rows;
-#pragma omp parallel for schedule(static) num_threads(threads)
+#pragma omp parallel for schedule(static) num_threads(threads_)
   for (int row = 0; row < rows; ++row) {
     for (int d = 0; d < 3; ++d) {
       const Lattice::Line line = s.lattice.line(row, d);
@@ -86,27 +87,31 @@ TangentOperator::TangentOperator(const Sheet& s, const Forces& f, int threads)
     }
   }
   std::vector<std::vector<Held>> found(static_cast<std::size_t>(rows));
-#pragma omp parallel for schedule(static) num_threads(threads)
+#pragma omp parallel for schedule(static) num_threads(threads_)
   for (int row = 0; row < rows; ++row) {
-    for (int i = row * s.lattice.columns; i < (row + 1) * s.lattice.columns; ++i) {
+    const int columns = s.lattice.columns, shift = s.lattice.shifted(row) ? 1 : 0;
+    for (int i = row * columns, c = 0; c < columns; ++i, ++c) {
       Block sum{0, 0, 0};
       double stiffest = 0;
       bool loose = false;
-      for (int d = 0; d < 6; ++d) {
-        const int j = s.lattice.neighbour(i, d);
-        if (j < 0) continue;
-        const int slot = d < 3 ? d * n + i : (d - 3) * n + j;
+      const auto add = [&](int slot) {  // slots without a neighbour have no stiffness
         const auto k = static_cast<std::size_t>(slot);
         sum[0] += xx_[k], sum[1] += xy_[k], sum[2] += yy_[k];
         stiffest = std::max(stiffest, s.stiffness[k]);
         loose = loose || (s.stiffness[k] > 0 && !active(s, f, slot));
-      }
+      };
+      for (int d = 0; d < 3; ++d) add(d * n + i);
+      if (c > 0) add(i - 1);
+      const int south_west = i - columns + shift - 1;
+      if (row > 0 && c + shift > 0) add(n + south_west);
+      if (row > 0 && c + shift < columns) add(2 * n + south_west + 1);
       Block held = sum;
       hold(held, stiffest, loose);
       if (held != sum)
         found[static_cast<std::size_t>(row)].push_back({i, {held[0] - sum[0], held[1] - sum[1], held[2] - sum[2]}});
     }
   }
+  held_.clear();
   for (const auto& row : found) held_.insert(held_.end(), row.begin(), row.end());
 }
 

@@ -30,16 +30,18 @@ Block diagonal_of(const Sheet& sheet, const BlockMatrix& matrix, int particle);
 /// Assembles the whole matrix.
 BlockMatrix assemble(const Sheet& sheet, const Forces& forces, Tangent tangent = Tangent::exact);
 
-/// The tangent of one state, to be applied to many vectors.
+/// The tangent of a state, to be applied to many vectors.
 class TangentOperator {
  public:
-  TangentOperator(const Sheet& sheet, const Forces& forces, int threads);
+  explicit TangentOperator(int threads) : threads_(threads) {}
+  /// Takes the tangent of this state. The sheet must last as long as it is applied, and is the same in every call.
+  void update(const Sheet& sheet, const Forces& forces);
   /// out = K v (particles held as in `assemble`), zero along held directions. Same bits for any number of threads.
   void apply(std::span<const double> vx, std::span<const double> vy, std::span<double> out_x,
              std::span<double> out_y) const;
 
  private:
-  const Sheet* sheet_;
+  const Sheet* sheet_ = nullptr;
   int threads_;
   std::vector<double> xx_, xy_, yy_;  // of each slot
   struct Held {

@@ -20,7 +20,9 @@ std::vector<double> residual(const Sheet& s, const Forces& f, const Dissection& 
     const auto i = static_cast<std::size_t>(d.order[at]);
     vx[i] = u[2 * at], vy[i] = u[2 * at + 1];
   }
-  TangentOperator(s, f, 1).apply(vx, vy, kx, ky);
+  TangentOperator tangent(1);
+  tangent.update(s, f);
+  tangent.apply(vx, vy, kx, ky);
   std::vector<double> left(2 * n);
   for (std::size_t at = 0; at < n; ++at) {
     const auto i = static_cast<std::size_t>(d.order[at]);
