@@ -83,6 +83,17 @@ inline __attribute__((always_inline)) F8 scales_of(const unsigned char* head) {
   return v;
 }
 
+// visit(from, to) over [0, n) in parts of `grain`, each a task; at once where there is one part.
+template <class Visit>
+void in_parts(int n, int grain, const Visit& visit) {
+  if (n <= grain) return visit(0, n);
+#pragma omp taskgroup
+  for (int from = 0; from < n; from += grain) {
+#pragma omp task default(shared) firstprivate(from)
+    visit(from, std::min(n, from + grain));
+  }
+}
+
 // The columns of a front: first those of the panel, then those that are left for the parent.
 struct Front {
   Panel<float> panel;
@@ -347,23 +358,18 @@ int partial_cholesky(const Panel<float>& panel, const Packed<float>& rest, std::
     const auto size = static_cast<std::size_t>(stripe * w);
     packed.resize(static_cast<std::size_t>(stripes) * size);
     std::fill(packed.end() - static_cast<std::ptrdiff_t>(size), packed.end(), 0.0F);
-    for (int c = 0; c < w; ++c) {
-      const float* in = front.column(k + c) + first;
-      for (int s = 0; s < stripes; ++s) {
-        std::copy(in + stripe * s, in + std::min(m, stripe * (s + 1)),
-                  packed.data() + static_cast<std::size_t>(s) * size + stripe * c);
-      }
-    }
-    for (int s = 0; s < stripes; ++s) solve_stripe(packed.data() + static_cast<std::size_t>(s) * size, w, triangle);
-    for (int c = 0; c < w; ++c) {
-      float* out = front.column(k + c) + first;
-      for (int s = 0; s < stripes; ++s) {
-        const float* in = packed.data() + static_cast<std::size_t>(s) * size + stripe * c;
-        std::copy(in, in + std::min(stripe, m - stripe * s), out + stripe * s);
-      }
-    }
     // A large front is shared among threads: every element is still made by one of them, in the same order.
     const bool shared = m >= shared_rows;
+    const auto solve = [&](int from, int to) {
+      for (int s = from; s < to; ++s) {
+        float* x = packed.data() + static_cast<std::size_t>(s) * size;
+        const int row = first + stripe * s, rows = std::min(stripe, nf - row);
+        for (int c = 0; c < w; ++c) std::copy_n(front.column(k + c) + row, rows, x + stripe * c);
+        solve_stripe(x, w, triangle);
+        for (int c = 0; c < w; ++c) std::copy_n(x + stripe * c, rows, front.column(k + c) + row);
+      }
+    };
+    in_parts(stripes, shared ? 8 : stripes, solve);
 #pragma omp taskgroup
     for (int from = 0; from < m;) {
       // Columns get shorter: the last parts are wider.
@@ -388,32 +394,37 @@ static_assert(sizeof(float[head_floats]) == head_lines * sizeof(ThinPanel::Line)
 
 void compress(const Panel<const float>& panel, const ThinPanel& thin) {
   const int ns = panel.ns;
-  ThinPanel::Line* at = thin.data + ThinPanel::lines(ns, panel.nf);
-  std::vector<float> columns(8 * thin.vector());
-  for (int b = 0, j = 0; b < thin.blocks(); ++b, j += 8) {
-    const int squares = thin.squares(b), count = std::min(8, ns - j), below = std::max(0, ns - j - 8);
-    at -= 2 * squares + head_lines;
-    float head[head_floats] = {};
-    std::fill_n(columns.begin(), static_cast<std::size_t>(64 * squares), 0.0F);
-    float triangle[8][8] = {};  // [column][row]
-    for (int q = 0; q < count; ++q) {
-      const float* in = panel.column(j + q);
-      std::copy(in + j + q, in + j + count, triangle[q] + q);
-      float* out = columns.data() + 8 * squares * q;
-      std::copy(in + j + 8, in + j + 8 + below, out);
-      std::copy(in + ns, in + panel.nf, out + thin.own() - j - 8);
-    }
-    for (int q = 0; q < count; ++q) {  // column q of the inverse, from the top down
-      float* out = head + column_of_triangle(q);
-      for (int i = q; i < count; ++i) {
-        float left = i == q ? 1.0F : 0.0F;
-        for (int p = q; p < i; ++p) left -= triangle[p][i] * out[p];
-        out[i] = left / triangle[i][i];
+  std::vector<ThinPanel::Line*> place(static_cast<std::size_t>(thin.blocks()));
+  ThinPanel::Line* end = thin.data + ThinPanel::lines(ns, panel.nf);
+  for (int b = 0; b < thin.blocks(); ++b) place[static_cast<std::size_t>(b)] = end -= 2 * thin.squares(b) + head_lines;
+  const auto make = [&](int from, int to) {
+    std::vector<float> columns(8 * thin.vector());
+    for (int b = from, j = 8 * from; b < to; ++b, j += 8) {
+      const int squares = thin.squares(b), count = std::min(8, ns - j), below = std::max(0, ns - j - 8);
+      float head[head_floats] = {};
+      std::fill_n(columns.begin(), static_cast<std::size_t>(64 * squares), 0.0F);
+      float triangle[8][8] = {};  // [column][row]
+      for (int q = 0; q < count; ++q) {
+        const float* in = panel.column(j + q);
+        std::copy(in + j + q, in + j + count, triangle[q] + q);
+        float* out = columns.data() + 8 * squares * q;
+        std::copy(in + j + 8, in + j + 8 + below, out);
+        std::copy(in + ns, in + panel.nf, out + thin.own() - j - 8);
       }
+      for (int q = 0; q < count; ++q) {  // column q of the inverse, from the top down
+        float* out = head + column_of_triangle(q);
+        for (int i = q; i < count; ++i) {
+          float left = i == q ? 1.0F : 0.0F;
+          for (int p = q; p < i; ++p) left -= triangle[p][i] * out[p];
+          out[i] = left / triangle[i][i];
+        }
+      }
+      ThinPanel::Line* at = place[static_cast<std::size_t>(b)];
+      quantise(columns.data(), squares, head, at + head_lines);
+      std::memcpy(at, head, sizeof head);
     }
-    quantise(columns.data(), squares, head, at + head_lines);
-    std::memcpy(at, head, sizeof head);
-  }
+  };
+  in_parts(thin.blocks(), panel.nf >= shared_rows ? 6 : thin.blocks(), make);
 }
 
 void panel_forward(const ThinPanel& panel, float* t) { forward(panel, t); }

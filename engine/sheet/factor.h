@@ -87,7 +87,7 @@ class Dissection {
   void connect(int node, int c0, int c1, int r0, int r1);
   void find_runs();
 
-  std::vector<Run> gathers_, hand_ups_;                     // of one node after the other
+  std::vector<Run> gathers_, hand_ups_;                      // of one node after the other
   std::vector<std::size_t> gathers_begin_, hand_ups_begin_;  // of each node, and the end
 };
 
@@ -125,6 +125,7 @@ class Factor {
   [[nodiscard]] PathVector forward_path(std::span<const std::pair<int, std::array<double, 2>>> load);
 
   [[nodiscard]] const Dissection& dissection() const { return *dissection_; }
+  void set_threads(int threads) { threads_ = threads; }  ///< no result hangs on their number
   /// Bytes that a sweep over all reads.
   [[nodiscard]] std::size_t bytes() const { return sizeof(ThinPanel::Line) * panels_.size(); }
 

@@ -83,8 +83,15 @@ void Patches::relax(Sheet& sheet, Forces& forces, std::span<const LatticeBox> bo
       locals.push_back(&local(shape, taken[shape]++));
       ++end;
     }
+    // Side by side, or one with all threads.
+    const bool alone = locals.size() == 1;
+    for (Local* each : locals) each->factor.set_threads(alone ? threads_ : 1);
+    if (alone) {
+      relax(sheet, forces, boxes[begin], small, *locals.front());
+    } else {
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads_)
-    for (std::size_t k = begin; k < end; ++k) relax(sheet, forces, boxes[k], small, *locals[k - begin]);
+      for (std::size_t k = begin; k < end; ++k) relax(sheet, forces, boxes[k], small, *locals[k - begin]);
+    }
     begin = end;
   }
   for (const LatticeBox& box : boxes) sum_up(sheet, forces, box);
