@@ -9,8 +9,11 @@ namespace reports {
 namespace {
 
 std::string label_of(const std::string& column) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> known{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 11> known{
       {{"work", "Work of the platens"},
+       {"boundary_work", "Work of the walls"},
+       {"growth_work", "Work of growing grains"},
+       {"released", "Released by breaking"},
        {"elastic", "Elastic"},
        {"kinetic", "Kinetic"},
        {"damping", "Damping"},
@@ -27,15 +30,22 @@ std::string label_of(const std::string& column) {
 
 }  // namespace
 
+bool in_elastic_constants(const dem::Table& history) { return history.has("boundary_work"); }
+
 std::vector<LedgerTerm> ledger_terms(const dem::Table& history) {
+  constexpr std::array<std::string_view, 4> of_a_sheet{"boundary_work", "growth_work", "elastic", "released"};
   std::vector<LedgerTerm> terms;
   for (const dem::Column& column : history.columns) {
-    if (column.unit != "J" || column.width != 1) continue;
-    const auto role = column.name.starts_with("work") ? LedgerTerm::Role::work
-                      : column.name == "residual"     ? LedgerTerm::Role::residual
-                                                      : LedgerTerm::Role::share;
+    const bool energy = in_elastic_constants(history) ? std::ranges::find(of_a_sheet, column.name) != of_a_sheet.end()
+                                                      : column.unit == "J" && column.width == 1;
+    if (!energy) continue;
+    const bool in = column.name.starts_with("work") || column.name.ends_with("_work");
+    const auto role = in                          ? LedgerTerm::Role::work
+                      : column.name == "residual" ? LedgerTerm::Role::residual
+                                                  : LedgerTerm::Role::share;
     terms.push_back({column.name, label_of(column.name), role});
   }
+  std::ranges::stable_partition(terms, [](const LedgerTerm& term) { return term.role == LedgerTerm::Role::work; });
   return terms;
 }
 

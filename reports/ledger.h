@@ -1,6 +1,7 @@
 #pragma once
 // The energy ledger of a record: every column of its history that is an energy, whatever the model.
-// Columns whose name begins with "work" come in, "residual" is what is left, all others are where the energy is or went.
+// Columns whose name begins or ends with "work" come in, "residual" is what is left, all others are where the energy is or
+// went. A sheet keeps its energies without a unit, as multiples of the elastic constant k times the box's width squared.
 #include <string>
 #include <vector>
 
@@ -14,7 +15,10 @@ struct LedgerTerm {
   enum class Role { work, share, residual } role = Role::share;
 };
 
-/// The energy columns (unit J) of a history, in its order; empty when it keeps none.
+/// The energy columns of a history, in its order; empty when it keeps none.
 std::vector<LedgerTerm> ledger_terms(const dem::Table& history);
+
+/// True for the energies of a sheet: not joules.
+bool in_elastic_constants(const dem::Table& history);
 
 }  // namespace reports

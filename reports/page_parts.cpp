@@ -304,19 +304,36 @@ std::optional<PageData> ledger_table(const StudyResult& study, const std::vector
     }
   }
   if (kept.empty()) return std::nullopt;
-  const auto [factor, unit] = energy_unit(largest);
+  const bool bare = in_elastic_constants(kept.front()->record->table("history"));
+  const auto [factor, unit] = bare ? std::pair<double, std::string>{1e6, "10⁻⁶ k box²"} : energy_unit(largest);
   std::vector<std::string> heads;
   for (const CaseResult* result : kept) heads.push_back(case_label(study, *result));
   PageData rows = new_list();
+  const auto add = [&rows](const std::string& label, const std::vector<std::string>& values, bool strong) {
+    PageData row = table_row(label, values);
+    row.set("strong", strong);
+    rows.push_back(row);
+  };
+  std::vector<double> left(kept.size(), 0);  // work less all the rest
+  bool residual = false;
   for (const LedgerTerm& term : ledger_terms(kept.front()->record->table("history"))) {
     std::vector<std::string> values;
-    for (const CaseResult* result : kept) {
-      const dem::Table& history = result->record->table("history");
-      values.push_back(history.has(term.column) ? number(factor * last_finite(history.real(term.column)), 4) : "–");
+    bool some = false;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      const dem::Table& history = kept[i]->record->table("history");
+      const double value = history.has(term.column) ? last_finite(history.real(term.column)) : 0;
+      values.push_back(history.has(term.column) ? number(factor * value, 4) : "–");
+      some = some || value != 0;
+      left[i] += term.role == LedgerTerm::Role::work ? value : term.role == LedgerTerm::Role::share ? -value : 0;
     }
-    PageData row = table_row(term.label, values);
-    row.set("strong", term.role != LedgerTerm::Role::share);
-    rows.push_back(row);
+    residual = residual || term.role == LedgerTerm::Role::residual;
+    if (bare && !some) continue;  // walls that hold, or no grain that grows
+    add(term.label, values, term.role != LedgerTerm::Role::share);
+  }
+  if (!residual) {
+    std::vector<std::string> values;
+    for (const double value : left) values.push_back(number(factor * value, 4));
+    add("Residual", values, true);
   }
   PageData table;
   table.set("test", capital(test));
@@ -324,6 +341,15 @@ std::optional<PageData> ledger_table(const StudyResult& study, const std::vector
   table.set("heads", cells(heads));
   table.set("rows", rows);
   return table;
+}
+
+// "pure_shear_spread_0_6" -> "pure shear spread 0.6"
+std::string id_words(std::string id) {
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  for (std::size_t i = 1; i + 1 < id.size(); ++i) {
+    if (id[i] == '_' && digit(id[i - 1]) && digit(id[i + 1])) id[i] = '.';
+  }
+  return words(id);
 }
 
 }  // namespace
@@ -341,7 +367,7 @@ bool varies(const StudyResult& study, const std::string& name) {
 }
 
 std::string case_label(const StudyResult& study, const CaseResult& result) {
-  if (!result.record) return words(result.id);
+  if (!result.record) return id_words(result.id);
   std::vector<std::string> parts;
   std::string aspect_ratio;
   for (const auto& [name, value] : result.record->parameters) {
@@ -355,7 +381,7 @@ std::string case_label(const StudyResult& study, const CaseResult& result) {
     if (told && !part.empty()) parts.push_back(part);
   }
   if (parts.empty() && !aspect_ratio.empty()) parts.push_back(aspect_ratio);
-  return parts.empty() ? capital(words(result.id)) : joined(parts, ", ");
+  return parts.empty() ? capital(id_words(result.id)) : joined(parts, ", ");
 }
 
 PageData title_data(const StudyResult& study, const ReportOptions& options) {

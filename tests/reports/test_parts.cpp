@@ -100,6 +100,17 @@ TEST_CASE("the ledger takes every energy of a history in its role") {
   CHECK(terms.front().role == reports::LedgerTerm::Role::work);
   CHECK(terms[1].label == "Elastic");
   CHECK(terms.back().role == reports::LedgerTerm::Role::residual);
+
+  dem::Table sheet;  // energies in elastic constants, beside other numbers without a unit
+  sheet.name = "history";
+  for (const char* name : {"strain", "elastic", "released", "boundary_work", "growth_work"})
+    sheet.add(name, "1", std::vector<double>{1.0});
+  const auto of_sheet = reports::ledger_terms(sheet);
+  REQUIRE(of_sheet.size() == 4);
+  CHECK(reports::in_elastic_constants(sheet));
+  CHECK(of_sheet[0].role == reports::LedgerTerm::Role::work);
+  CHECK(of_sheet[1].label == "Work of growing grains");
+  CHECK(of_sheet[3].role == reports::LedgerTerm::Role::share);
 }
 
 TEST_CASE("summary.json has the promised structure") {
