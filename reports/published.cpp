@@ -9,8 +9,10 @@
 
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
+#include "reports/after_peak.h"
 #include "reports/envelopes.h"
-#include "reports/figures/parts.h"
+#include "reports/figures/texture_parts.h"
+#include "reports/orientation.h"
 #include "reports/text.h"
 
 namespace reports {
@@ -85,6 +87,20 @@ Estimate fitted(const StudyResult& study, const Json& term) {
   return *found;
 }
 
+// What a case's tables tell and its results do not hold.
+double measured(const StudyResult& study, const dem::Record& record, const std::string& name) {
+  if (name == "crack_angle") {
+    if (!record.find("cracks")) throw NotComputed{"case " + record.case_id + " keeps no cracks"};
+    return orientation_of(record.table("cracks"), 0).mean;
+  }
+  if (name == "stress_after_peak") {
+    if (!record.find("history")) throw NotComputed{"case " + record.case_id + " keeps no history"};
+    const auto cases = series_of(texture::of_mineral(study, ""), texture::test_compression, texture::confining_axis);
+    return stress_after_peak(common_reach(cases))(record);
+  }
+  throw dem::EnvironmentError("unknown measure '" + name + "' of a published number");
+}
+
 double value_of(const StudyResult& study, const Json& term, const Place& at);
 
 std::vector<double> values_of(const StudyResult& study, const Json& terms, const Place& at) {
@@ -109,9 +125,13 @@ double value_of(const StudyResult& study, const Json& term, const Place& at) {
   } else {
     const std::string id = case_id(term, at);
     const dem::Record& record = record_of(study, id);
-    const std::string result = term.at("result").get<std::string>();
-    if (!record.has_result(result)) throw NotComputed{"case " + id + " has no " + words(result)};
-    value = record.result(result);
+    if (term.contains("measure")) {
+      value = measured(study, record, term.at("measure").get<std::string>());
+    } else {
+      const std::string result = term.at("result").get<std::string>();
+      if (!record.has_result(result)) throw NotComputed{"case " + id + " has no " + words(result)};
+      value = record.result(result);
+    }
   }
   if (!std::isfinite(value)) throw NotComputed{"the result is not a number"};
   return value * term.value("times", 1.0);

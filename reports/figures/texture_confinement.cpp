@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "reports/after_peak.h"
 #include "reports/envelopes.h"
 #include "reports/figures/table.h"
 #include "reports/figures/texture_parts.h"
@@ -26,39 +27,6 @@ double peak_stress(const dem::Record& record) {
 
 std::vector<SeriesCase> confined(const StudyResult& study) {
   return series_of(of_mineral(study, ""), test_compression, confining_axis);
-}
-
-// Strain from the peak to the end of the test that is followed least far beyond its peak (%).
-double common_reach(const std::vector<SeriesCase>& cases) {
-  double reach = std::numeric_limits<double>::infinity();
-  for (const SeriesCase& item : cases) {
-    for (const dem::Record* record : item.repeats) {
-      const auto strain = record->table("history").real("platen_strain"),
-                 stress = record->table("history").real("axial_stress");
-      if (strain.empty()) continue;
-      const auto peak = static_cast<std::size_t>(std::ranges::max_element(stress) - stress.begin());
-      reach = std::min(reach, 100 * (strain.back() - strain[peak]));
-    }
-  }
-  return reach;
-}
-
-// Stress over the peak at a strain after it (%): the mean over the tenth of that strain before.
-Measure stress_after_peak(double reach) {
-  return [reach](const dem::Record& record) {
-    const auto strain = record.table("history").real("platen_strain"),
-               stress = record.table("history").real("axial_stress");
-    if (strain.empty()) return std::numeric_limits<double>::quiet_NaN();
-    const auto peak = static_cast<std::size_t>(std::ranges::max_element(stress) - stress.begin());
-    double sum = 0, count = 0;
-    for (std::size_t i = peak; i < strain.size(); ++i) {
-      const double after = 100 * (strain[i] - strain[peak]) / reach;
-      if (after < 0.9 || after > 1 + 1e-9) continue;
-      sum += stress[i];
-      ++count;
-    }
-    return sum / count / stress[peak];
-  };
 }
 
 std::vector<double> tensile_strengths(const StudyResult& study) {
@@ -122,6 +90,15 @@ double stiffness_at_initiation(const dem::Record& record) {
   return 1e-9 * at_first(history.real("axial_strain"), history.real("axial_stiffness"),
                          result_or_nan(record, "crack_initiation_strain.axial_stiffness"));
 }
+
+/// Crack initiation in laboratories, Eq. 12: between these shares of sigma_c plus these multiples of sigma_3.
+struct InitiationRange {
+  double share_low = 0.3, share_high = 0.5, slope_low = 1, slope_high = 1.5;
+  [[nodiscard]] bool holds(double share, double slope) const {
+    return share >= share_low && share <= share_high && slope >= slope_low && slope <= slope_high;
+  }
+};
+constexpr InitiationRange laboratories;
 
 /// An envelope of the paper whose formula it gives; NaN for another rock.
 struct Published {
@@ -193,6 +170,11 @@ render::Chart envelope_chart(const StudyResult& study, const Envelopes& found, c
   line("", strain_colour, render::Line::dash, [&](double x) { return intercept + slope * x; });
   line("Martin’s laboratory peak", {0.4, 0.4, 0.4}, render::Line::dot,
        Published{published("martin_sigma_c"), published("martin_m"), 1});
+  const render::Colour range_colour{0.55, 0.55, 0.55};
+  line("laboratories’ σci, Eq. 12", range_colour, render::Line::dash_dot,
+       [&](double x) { return laboratories.share_low * found.ucs + laboratories.slope_low * x; });
+  line("", range_colour, render::Line::dash_dot,
+       [&](double x) { return laboratories.share_high * found.ucs + laboratories.slope_high * x; });
   chart.legend = render::Chart::Legend::below;
   chart.width = 640;
   chart.height = 480;
@@ -316,9 +298,9 @@ FigureContent confinement_envelopes(const StudyResult& study) {
   for (const Initiation& one : found.initiation) {
     if (!one.fit || !std::isfinite(ucs)) continue;
     const double share = one.fit->intercept.value / ucs, slope = one.fit->slope.value;
-    const bool inside = share >= 0.3 && share <= 0.5 && slope >= 1 && slope <= 1.5;
     content.finding += fmt::format(" By {}: {} UCS {} {} σ₃, {} the range of Eq. 12.", one.name, number(share, 2),
-                                   slope < 0 ? "−" : "+", number(std::abs(slope), 2), inside ? "inside" : "outside");
+                                   slope < 0 ? "−" : "+", number(std::abs(slope), 2),
+                                   laboratories.holds(share, slope) ? "inside" : "outside");
   }
   return content;
 }

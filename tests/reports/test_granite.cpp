@@ -65,6 +65,25 @@ struct Made {
   }
 };
 
+void set_table(dem::Record& record, const dem::Table& table) {
+  *std::ranges::find(record.tables, table.name, &dem::Table::name) = table;
+}
+
+// Up to the peak at 1 + pressure / 10 (%), down to 0.4 + pressure / 100 of it, and further down from 0.5 % after the peak on;
+// without pressure the test ends 0.3 % after its peak.
+void set_history(dem::Record& record, double pressure) {
+  const double peak = 1 + pressure / 10, level = 0.4 + 0.01 * pressure, reach = pressure == 0 ? 0.3 : 2;
+  dem::Table history{.name = "history", .attributes = {}, .columns = {}};
+  std::vector<double> strain, stress;
+  for (double e = 0.05; e < peak + reach + 1e-6; e += 0.01) {
+    strain.push_back(e / 100);
+    stress.push_back(1e8 * (e < peak + 1e-6 ? e / peak : e < peak + 0.5 ? level : 0.1));
+  }
+  history.add("platen_strain", "1", strain);
+  history.add("axial_stress", "Pa", stress);
+  set_table(record, history);
+}
+
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += word + " ";
@@ -112,21 +131,35 @@ TEST_CASE("stresses after the peak are compared at one strain after it, as far a
   Made made("ldb_confinement");
   for (const double pressure : {0.0, 10.0, 40.0}) {
     made.add_confined(pressure);
-    // Up to the peak at 1 + pressure / 10 (%), down to a level, and further down from 0.5 % after the peak on.
-    const double peak = 1 + pressure / 10, level = 0.4 + 0.01 * pressure, reach = pressure == 0 ? 0.3 : 2;
-    dem::Table history{.name = "history", .attributes = {}, .columns = {}};
-    std::vector<double> strain, stress;
-    for (double e = 0.05; e < peak + reach + 1e-6; e += 0.01) {
-      strain.push_back(e / 100);
-      stress.push_back(1e8 * (e < peak + 1e-6 ? e / peak : e < peak + 0.5 ? level : 0.1));
-    }
-    history.add("platen_strain", "1", strain);
-    history.add("axial_stress", "Pa", stress);
-    auto& tables = made.records.back().tables;
-    *std::ranges::find(tables, "history", &dem::Table::name) = history;
+    set_history(made.records.back(), pressure);
   }
   CHECK(has(reports::texture::confinement_after_peak(made.study()).finding,
             "At 0.30 % of strain after the peak the stress is 0.40, 0.50 and 0.80 of the peak"));
+}
+
+TEST_CASE("verdicts read stresses after the peak and directions of cracks from the tables") {
+  Made made("ldb_confinement");
+  for (const double pressure : {0.0, 10.0, 40.0}) {
+    made.add_confined(pressure);
+    set_history(made.records.back(), pressure);
+    dem::Table cracks{.name = "cracks", .attributes = {}, .columns = {}};
+    const double angle = (50 - pressure) * std::numbers::pi / 180;  // of the plane to the axis
+    cracks.add("normal", "1", std::vector<double>{std::cos(angle), 0, std::sin(angle)}, 3);
+    cracks.add("area", "m^2", std::vector<double>{1});
+    cracks.add("mode", "", std::vector<std::int32_t>{0});
+    set_table(made.records.back(), cracks);
+  }
+  const auto rows = reports::compare(made.study(), std::filesystem::path(DEM_SOURCE_DIR) / "assets/published").rows;
+  const auto row = [&](const std::string& id) {
+    const auto found = std::ranges::find(rows, id, &reports::Comparison::id);
+    REQUIRE(found != rows.end());
+    return *found;
+  };
+  const auto after = row("trend_stress_after_peak_with_pressure"), angle = row("trend_crack_angle_with_pressure");
+  CHECK(after.verdict == reports::Verdict::met);
+  CHECK(has(after.detail, "0.4000 → 0.5000 → 0.8000; not run: 5, 20, 60"));
+  CHECK(angle.verdict == reports::Verdict::missed);
+  CHECK(has(angle.detail, "50.00 → 40.00 → 10.00; not run: 5, 20, 60"));
 }
 
 TEST_CASE("figures show what the paper states beside ours, and nothing for another rock") {
@@ -153,6 +186,7 @@ TEST_CASE("figures show what the paper states beside ours, and nothing for anoth
   study.published = reports::published_numbers(study, std::filesystem::path(DEM_SOURCE_DIR) / "assets/published");
   CHECK(has(labels(confinement_envelopes(study)), "published fits"));
   CHECK(has(labels(confinement_envelopes(study)), "Martin’s laboratory peak"));
+  CHECK(has(labels(confinement_envelopes(study)), "laboratories’ σci, Eq. 12"));
   const auto table = std::get<reports::TextTable>(confinement_envelopes(study).panels.at(1).content);
   std::vector<std::string> published;
   for (const auto& row : table.rows) published.push_back(row[2]);
