@@ -377,7 +377,8 @@ std::string case_label(const StudyResult& study, const CaseResult& result) {
     const bool usual = base != first->record->parameters.end() && base->second == value;
     const std::string part = parameter_words(name, value);
     if (name == "aspect_ratio") aspect_ratio = part;
-    const bool told = name == "aspect_ratio" ? varies(study, name) : name == "mineral" || !usual;
+    const bool of_axis = name == "aspect_ratio" || name == "dip" || name == "confining_pressure_MPa";
+    const bool told = of_axis ? varies(study, name) : name == "mineral" || !usual;
     if (told && !part.empty()) parts.push_back(part);
   }
   if (parts.empty() && !aspect_ratio.empty()) parts.push_back(aspect_ratio);

@@ -118,7 +118,7 @@ std::string shares_alt(const dem::Table& history) {
     label[0] = static_cast<char>(std::tolower(label[0]));
     parts.push_back(label + " " + percent(history.real(term.column).back() / work.back(), 1));
   }
-  return "Of the work, at the end: " + listed(parts) + ".";
+  return "of the work, at the end: " + listed(parts) + ".";
 }
 
 }  // namespace
@@ -152,7 +152,7 @@ FigureContent energy_figure(const StudyResult& study, std::string_view test, con
     content.panels.push_back(
         {.id = item->id,
          .caption = item->label + (explained ? "; colours as at " + kept.front()->label + "." : "."),
-         .alt = item->label + ". " + shares_alt(history),
+         .alt = item->label + ", " + shares_alt(history),
          .content = std::move(chart)});
     render::Series series = relative_residual(history, x_column, x_factor);
     series.label = item->label;
@@ -184,21 +184,24 @@ FigureContent energy_figure(const StudyResult& study, std::string_view test, con
          .alt = "Largest residual " + number(worst, 2) + " of the work, limit " + number(limit, 2) + ".",
          .content = residuals});
   }
-  content.finding =
-      fmt::format("{} The largest residual is {} of the work{}.", shares_alt(kept.front()->record->table("history")),
-                  number(worst, 2), std::isfinite(limit) ? " (limit " + number(limit, 2) + ")" : "");
+  const std::string shares = shares_alt(kept.front()->record->table("history"));
+  content.finding = fmt::format("{}The largest residual is {} of the work{}.",
+                                shares.empty() ? "" : "At " + kept.front()->label + ", " + shares + " ",
+                                number(worst, 2), std::isfinite(limit) ? " (limit " + number(limit, 2) + ")" : "");
   return content;
 }
 
 namespace texture {
 
+// Against the strain of the platens, which only grows: that of the gauge springs back where a band fails outside it.
 FigureContent energy_compression(const StudyResult& study) {
-  return energy_figure(study, test_compression, swept(study, test_compression), "axial_strain", "Axial strain (%)",
-                       100);
+  return energy_figure(study, test_compression, swept(study, test_compression), "platen_strain",
+                       "Strain of the platens (%)", 100);
 }
 
 FigureContent energy_tension(const StudyResult& study) {
-  return energy_figure(study, test_tension, swept(study, test_tension), "axial_strain", "Axial strain (%)", 100);
+  return energy_figure(study, test_tension, swept(study, test_tension), "platen_strain", "Strain of the platens (%)",
+                       100);
 }
 
 }  // namespace texture
