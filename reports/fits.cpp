@@ -221,8 +221,14 @@ std::optional<EnvelopeFit> fit_peak_m(std::span<const double> sigma_3, std::span
     if (std::abs(change) <= 1e-14 * std::abs(a)) break;
   }
   if (!now.valid || !(now.aa > 0)) return std::nullopt;
-  const double freedom = static_cast<double>(sigma_3.size()) - 1;
-  const double error = freedom > 0 ? std::sqrt(now.squares / freedom / now.aa) / sigma_c : 0;
+  // Points without pressure say nothing of m, and sigma_c is their mean: scatter is that of the others.
+  double squares = 0, freedom = -1;
+  for (std::size_t i = 0; i < sigma_3.size(); ++i) {
+    if (!(sigma_3[i] > 0)) continue;
+    squares += std::pow(sigma_1[i] - hoek_brown(sigma_3[i], sigma_c, a / sigma_c, 1), 2);
+    ++freedom;
+  }
+  const double error = freedom > 0 ? std::sqrt(squares / freedom / now.aa) / sigma_c : 0;
   return EnvelopeFit{fixed_value(sigma_c), with_error(a / sigma_c, error, freedom), fixed_value(1), sigma_3.size()};
 }
 

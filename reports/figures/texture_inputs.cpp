@@ -109,9 +109,9 @@ std::vector<Group> groups_of(const StudyResult& study) {
   for (const CaseResult& one : study.cases) {
     if (!one.record || one.record->text("test") != test_genesis) continue;
     const dem::Record& r = *one.record;
-    std::string label = "AR " + number(r.number("aspect_ratio"), 3);
-    if (r.number("dip") != 0) label += ", dip " + number(r.number("dip"), 3) + "°";
-    if (r.number("seed_scale") != 1) label += ", seeds × " + number(r.number("seed_scale"), 3);
+    std::string label = "AR " + shortest(r.number("aspect_ratio"));
+    if (r.number("dip") != 0) label += ", dip " + shortest(r.number("dip")) + "°";
+    if (r.number("seed_scale") != 1) label += ", seeds × " + shortest(r.number("seed_scale"));
     if (r.text("growth") != "most_contacts") label += ", growth by " + words(r.text("growth"));
     const auto found = std::ranges::find(groups, label, &Group::label);
     if (found == groups.end())
@@ -172,7 +172,7 @@ FigureContent ellipsoid_turns(const StudyResult& study) {
              Picture{.scene = ellipsoid_scene(ar, dd, d, centre), .label = "", .legend = legend, .scale_bar = false},
          .per_row = 4});
   };
-  const std::string about_z = number(degrees(direction), 3) + "°", about_y = number(degrees(dip), 3) + "°";
+  const std::string about_z = shortest(degrees(direction)) + "°", about_y = shortest(degrees(dip)) + "°";
   add("made", "Along x.", 0, 0, {0, 0, 0});
   add("dip_direction", "Turned about z by " + about_z + ".", direction, 0, {0, 0, 0});
   add("dip", "Turned by the dip of " + about_y + ".", direction, dip, {0, 0, 0});
@@ -252,24 +252,23 @@ FigureContent input_parameters(const StudyResult& study) {
   };
   std::vector<std::string> aspect;
   for (const SeriesCase& item : swept(study, test_genesis))
-    aspect.push_back(number(item.record->number("aspect_ratio"), 3));
+    aspect.push_back(shortest(item.record->number("aspect_ratio")));
   row("grain seeds", "number of minerals", "Nₘ", std::to_string(minerals));
-  row("grain seeds", "factor on their diameters", "", number(s.real("texture.seed_scale"), 4));
+  row("grain seeds", "factor on their diameters", "", shortest(s.real("texture.seed_scale")));
   row("particles", "aspect ratios of grains", "AR = λ³",
-      aspect.empty() ? number(s.real("texture.aspect_ratio"), 3) : joined(aspect, ", "));
-  row("particles", "dip direction", "θ_z", number(degrees(s.real("texture.dip_direction")), 3) + "°");
-  row("particles", "dip", "θ_y", number(degrees(s.real("texture.dip")), 3) + "°");
-  row("particles", "smallest radius", "R_min", number(1e3 * s.real("packing.minimum_radius"), 3) + " mm");
-  row("particles", "largest over smallest radius", "R_max/R_min", number(s.real("packing.radius_ratio"), 4));
-  row("particles", "modulus while packing", "E*", number(1e-9 * s.real("packing.modulus"), 3) + " GPa");
-  row("particles", "material pressure over modulus (not in the paper)", "",
-      number(s.real("packing.pressure_ratio"), 3));
-  row("interaction", "modulus", "α_E", number(s.real("interaction.modulus"), 3));
-  row("interaction", "stiffness ratio", "α_k", number(s.real("interaction.stiffness_ratio"), 3));
-  row("interaction", "friction", "α_μ", number(s.real("interaction.friction"), 3));
-  row("interaction", "tensile strength", "α_t", number(s.real("interaction.tensile_strength"), 3));
-  row("interaction", "cohesion", "α_C", number(s.real("interaction.cohesion"), 3));
-  row("interaction", "friction angle", "α_φ", number(s.real("interaction.friction_angle"), 3));
+      aspect.empty() ? shortest(s.real("texture.aspect_ratio")) : joined(aspect, ", "));
+  row("particles", "dip direction", "θ_z", shortest(degrees(s.real("texture.dip_direction"))) + "°");
+  row("particles", "dip", "θ_y", shortest(degrees(s.real("texture.dip"))) + "°");
+  row("particles", "smallest radius", "R_min", shortest(1e3 * s.real("packing.minimum_radius")) + " mm");
+  row("particles", "largest over smallest radius", "R_max/R_min", shortest(s.real("packing.radius_ratio")));
+  row("particles", "modulus while packing", "E*", shortest(1e-9 * s.real("packing.modulus")) + " GPa");
+  row("particles", "material pressure over modulus (not in the paper)", "", shortest(s.real("packing.pressure_ratio")));
+  row("interaction", "modulus", "α_E", shortest(s.real("interaction.modulus")));
+  row("interaction", "stiffness ratio", "α_k", shortest(s.real("interaction.stiffness_ratio")));
+  row("interaction", "friction", "α_μ", shortest(s.real("interaction.friction")));
+  row("interaction", "tensile strength", "α_t", shortest(s.real("interaction.tensile_strength")));
+  row("interaction", "cohesion", "α_C", shortest(s.real("interaction.cohesion")));
+  row("interaction", "friction angle", "α_φ", shortest(s.real("interaction.friction_angle")));
   content.panels.push_back({.id = "common",
                             .caption = "Parameters of the specimen (Tables 1 and 4).",
                             .alt = "",
@@ -280,7 +279,7 @@ FigureContent input_parameters(const StudyResult& study) {
   for (std::size_t m = 0; m < minerals; ++m) by_mineral.head.push_back(s.text(fmt::format("mineral[{}].name", m)));
   const auto add = [&](const char* name, const char* key, double factor) {
     std::vector<std::string> cells{name};
-    for (std::size_t m = 0; m < minerals; ++m) cells.push_back(number(factor * mineral(m, key), 4));
+    for (std::size_t m = 0; m < minerals; ++m) cells.push_back(shortest(factor * mineral(m, key)));
     by_mineral.rows.push_back(std::move(cells));
   };
   add("share Cₘ (%)", "share", 100);
@@ -342,6 +341,8 @@ FigureContent texture_by_seed(const StudyResult& study) {
   if (swept_axis(study).parameter == "aspect_ratio" && cases.size() > 1) {
     render::Chart chart;
     chart.x.title = "Aspect ratio";
+    chart.x.low = cases.front().value - 0.2;
+    chart.x.high = cases.back().value + 0.2;
     chart.left.title = "Contacts between grains (%)";
     render::Series ours = means(cases, share);
     ours.label = "this study, mean and standard deviation over seeds";
@@ -372,7 +373,7 @@ FigureContent texture_by_seed(const StudyResult& study) {
         "The share {}. From AR {} to {} it grows by a factor of {}; the surface of the ellipsoid by {} (exact), {} by "
         "Eq. 14, which is a mean "
         "of sections and not the surface. ",
-        trend_words(cases, share, "%", swept_axis(study)), number(cases.front().value, 3), number(last, 3),
+        trend_words(cases, share, "points", swept_axis(study)), shortest(cases.front().value), shortest(last),
         number(spread_of(cases.back(), share).mean / base, 4),
         number(exact_surface(last) / exact_surface(cases.front().value), 4),
         number(published_surface(last) / published_surface(cases.front().value), 4));

@@ -108,6 +108,10 @@ TEST_CASE("m alone is found when sigma_c is known, and no nearby m is closer") {
     return sum;
   };
   for (const double step : {-0.05, 0.05}) CHECK(squares(fit->m.value + step) > squares(fit->m.value));
+  // A point without pressure lies on every envelope with its own sigma_c: two points leave nothing to judge m by.
+  const auto one = reports::fit_peak_m(std::vector{0.0, 20.0}, std::vector{206.0, 400.0}, 206);
+  REQUIRE(one);
+  CHECK_FALSE(one->m.has_interval());
   CHECK_FALSE(reports::fit_peak_m(sigma_3, sigma_1, std::nan("")));
   CHECK_FALSE(reports::fit_peak_m(std::vector{10.0}, std::vector{200.0}, 206));
 }
