@@ -164,6 +164,7 @@ void compare_value(const StudyResult& study, const Json& entry, Comparison& row)
   if (term.contains("fit")) {
     const Estimate estimate = fitted(study, term);
     ours = estimate.value * term.value("times", 1.0);
+    row.estimate = estimate;
     row.detail = estimate.has_interval()
                      ? fmt::format("95 % interval {} to {}", number(estimate.low), number(estimate.high))
                      : "as many points as unknowns: no interval";
@@ -225,6 +226,8 @@ void compare_trend(const StudyResult& study, const Json& entry, Comparison& row)
     row.detail += fmt::format("; slope {} (95 % interval {} to {}, p = {})", number(slope, 2),
                               number(line->slope.low, 2), number(line->slope.high, 2), number(line->p_value, 2));
   }
+  row.estimate = line->slope;
+  row.p_value = line->p_value;
   row.by_interval = x.size() > ours.size() && line->slope.has_interval();
   if (row.by_interval && line->slope.low <= 0 && line->slope.high >= 0) row.computed = std::string("lost in scatter");
   row.verdict = *row.computed == row.published ? Verdict::met : Verdict::missed;

@@ -8,7 +8,9 @@
 //                 "published_values": [...] are shown beside ours
 //      "greater": "of": TERM, "than": TERM: ours must be greater, as published
 // TERM: {"case": "compression_ar_1", "result": "ucs_MPa"}, {"quotient": [TERM, TERM]}, {"sum": [TERM, ...]},
-//       {"difference": [TERM, TERM]}, {"fit": "peak.m", "mineral": "quartz"} (reports/envelopes.h); "times": 100 scales any of them (a fraction to percent).
+//       {"difference": [TERM, TERM]}, {"fit": "peak.m", "mineral": "quartz"} (reports/envelopes.h),
+//       {"case": "...", "measure": "crack_angle" | "stress_after_peak"} (from a case's tables); "times": 100 scales any of
+//       them (a fraction to percent).
 // Where a scenario repeats its cases with other seeds, values are means, and a trend must stand out of their scatter: the 95 %
 // interval of its slope must not hold zero. With one seed the sign of the slope decides.
 // "optional": true leaves the number out where the scenario has not the case.
@@ -22,6 +24,7 @@
 #include <vector>
 
 #include "reports/figure.h"
+#include "reports/fits.h"
 
 namespace reports {
 
@@ -40,8 +43,10 @@ struct Comparison {
   bool by_interval = false;  ///< a trend over several seeds: it must stand out of their scatter
   bool relative = false;     ///< deviation and tolerance are fractions of the published value
   Verdict verdict = Verdict::not_computed;
-  std::string published_detail;  ///< the published values that make a trend: "206.8 → 201.3 → 198.4"
-  std::string detail;            ///< what trends are made of, or why nothing could be computed
+  std::optional<Estimate> estimate;  ///< of a fit, the value with its interval; of a trend, its slope
+  std::optional<double> p_value;     ///< of a trend's slope
+  std::string published_detail;      ///< the published values that make a trend: "206.8 → 201.3 → 198.4"
+  std::string detail;                ///< what trends are made of, or why nothing could be computed
 };
 
 struct Comparisons {

@@ -54,15 +54,21 @@ Json case_json(const CaseResult& result) {
 }
 
 Json comparison_json(const Comparison& row) {
-  return {{"id", row.id},
-          {"source", row.source},
-          {"published", plain(row.published)},
-          {"computed", or_null(row.computed)},
-          {"deviation", or_null(row.deviation)},
-          {"tolerance", or_null(row.tolerance)},
-          {"verdict", verdict_word(row.verdict)},
-          {"unit", row.unit},
-          {"relative", row.relative}};
+  Json json{{"id", row.id},
+            {"source", row.source},
+            {"published", plain(row.published)},
+            {"computed", or_null(row.computed)},
+            {"deviation", or_null(row.deviation)},
+            {"tolerance", or_null(row.tolerance)},
+            {"verdict", verdict_word(row.verdict)},
+            {"unit", row.unit},
+            {"relative", row.relative}};
+  if (row.estimate && row.estimate->has_interval()) {
+    if (row.p_value) json["slope"] = plain(row.estimate->value);
+    json["interval"] = {plain(row.estimate->low), plain(row.estimate->high)};
+  }
+  if (row.p_value && std::isfinite(*row.p_value)) json["p_value"] = plain(*row.p_value);
+  return json;
 }
 
 }  // namespace

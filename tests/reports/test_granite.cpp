@@ -12,6 +12,7 @@
 #include "reports/figures/texture_parts.h"
 #include "reports/orientation.h"
 #include "reports/published.h"
+#include "reports/summary.h"
 #include "tests/reports/synthetic.h"
 #include "tests/support/scratch.h"
 
@@ -264,6 +265,12 @@ TEST_CASE("published numbers of the granite are compared with fits, means and tr
   CHECK(residual.verdict == reports::Verdict::met);
   CHECK(has(residual.detail, "not run: 5, 20, 60"));
   CHECK(has(residual.detail, "p = "));
+  const auto json = reports::summary_json(made.study(), {"", "", rows}, {});
+  CHECK(has(json, "\"p_value\": "));
+  REQUIRE(m.estimate);
+  CHECK(m.estimate->low < 29);
+  CHECK(m.estimate->high > 29);
+  CHECK(residual.estimate->value == Approx(0.01));
 }
 
 TEST_CASE("each scenario of the granite has its published numbers, with unlike ids") {
