@@ -128,6 +128,27 @@ TEST_CASE("figures under confinement say what the records hold") {
   }));
 }
 
+TEST_CASE("a plateau that the start of the platens leaves uneven is told") {
+  Made made("ldb_confinement");
+  for (const double pressure : {0.0, 10.0}) {
+    made.add_confined(pressure);
+    dem::Table history{.name = "history", .attributes = {}, .columns = {}};
+    std::vector<double> strain, stress, stiffness;
+    for (int i = 0; i <= 100; ++i) {
+      strain.push_back(1e-4 * i);
+      stress.push_back(1e6 * (pressure + i));
+      stiffness.push_back(pressure == 0 || i % 2 == 0 ? 70e9 : 77e9);
+    }
+    history.add("axial_strain", "1", strain);
+    history.add("axial_stress", "Pa", stress);
+    history.add("axial_stiffness", "Pa", stiffness);
+    set_table(made.records.back(), history);
+  }
+  const std::string finding = reports::texture::confinement_curves(made.study()).finding;
+  CHECK(has(finding, "more than the 2 % that are looked for"));
+  CHECK(has(finding, "at σ₃ 10 MPa (± 4.8 %):"));
+}
+
 TEST_CASE("stresses after the peak are compared at one strain after it, as far as the shortest test goes") {
   Made made("ldb_confinement");
   for (const double pressure : {0.0, 10.0, 40.0}) {
