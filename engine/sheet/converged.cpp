@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "engine/core/errors.h"
 #include "engine/sheet/dense.h"
@@ -17,8 +18,12 @@ constexpr double gross_change = 0.05;     // of a spring's stiffness: the factor
 constexpr double slight_change = 0.0005;  // the factor follows where it was seen to fall short
 constexpr double least_heat = 0.01;       // share of the unbalanced force that a solve left there
 constexpr int tile = 16;                  // particles a side of the squares in which that is noted
-constexpr int most_changes = 300;         // rank beyond which corrections cost more than a new factor
-constexpr int most_weakened = 8;          // removals that left a pair unheld, before a new factor
+// Springs in patches that turned since the factor was made are changes to it, where a step left more than a share.
+constexpr double turned_change = 0.03, turned_share = 0.02;  // of a spring's stiffness; of the unbalanced force
+constexpr std::size_t most_turned = 20;                      // of them at a time
+constexpr double least_change = 1e-3;  // of a spring's stiffness along an axis: less is left to the next factor
+constexpr int most_changes = 300;      // rank beyond which corrections cost more than a new factor
+constexpr int most_weakened = 8;       // removals that left a pair unheld, before a new factor
 // Patches are laid around what is unbalanced by a share of the largest unbalanced force: all of it, or else none;
 // after a step that left much, around the worst of it.
 constexpr double peak_share = 0.02, worst_share = 0.05, much = 0.1;
@@ -38,6 +43,7 @@ struct ConvergedSolver::Impl {
   SolverWork done;
   BlockMatrix matrix;                           // what the factor holds but for the changes
   std::vector<ConvergedState::Change> changes;  // since the last factorisation
+  std::map<int, Block> changed;                 // by slot: what the factor holds of those that changed since
   double extra_solves = 0;                      // counted towards the next one
   bool load_moved = false;                      // since the last whole one
   std::vector<std::uint8_t> held;               // of each slot: whether the factor has it, changes included
@@ -131,9 +137,7 @@ struct ConvergedSolver::Impl {
     const std::vector<std::uint8_t> hot = hot_tiles();
     for (int slot = 0; extent == Extent::part && slot < sheet.slots(); ++slot) {
       const auto k = static_cast<std::size_t>(slot);
-      const Block& then = matrix.coupling[k];
-      const double most =
-          std::max({std::fabs(now[k][0] - then[0]), std::fabs(now[k][1] - then[1]), std::fabs(now[k][2] - then[2])});
+      const double most = farthest(now[k], matrix.coupling[k]);
       if (most <= slight_change * sheet.stiffness[k]) continue;
       const int i = sheet.first(slot), columns = sheet.lattice.columns;
       const bool here = hot[static_cast<std::size_t>(i / columns / tile * tiles_across() + i % columns / tile)] != 0;
@@ -165,6 +169,7 @@ struct ConvergedSolver::Impl {
     factorised = true;
     hold(sheet);
     changes.clear();
+    changed.clear();
     extra_solves = 0;
     std::fill(heat.begin(), heat.end(), 0.0);
     if (extent == Extent::whole) load_moved = false;
@@ -181,42 +186,74 @@ struct ConvergedSolver::Impl {
     }
   }
 
-  void change(const Sheet& sheet, ConvergedState::Change c) {
+  void change(const Sheet& sheet, const ConvergedState::Change& c) {
     held[static_cast<std::size_t>(c.slot)] = c.active ? 1 : 0;
-    c.coefficient = factor.change(c.coefficient, sheet.first(c.slot), sheet.second(c.slot), {c.nx, c.ny}, sheet.fixed);
+    Block b = holds(c.slot);
+    const double made =
+        factor.change(c.coefficient, sheet.first(c.slot), sheet.second(c.slot), {c.nx, c.ny}, sheet.fixed);
+    b[0] += made * c.nx * c.nx, b[1] += made * c.nx * c.ny, b[2] += made * c.ny * c.ny;
+    changed[c.slot] = b;
     changes.push_back(c);
     ++done.changes;
   }
 
-  // The direction along which the factor holds a slot.
-  std::array<double, 2> direction(int slot) const {
-    for (auto c = changes.rbegin(); c != changes.rend(); ++c) {
-      if (c->slot == slot && c->active) return {c->nx, c->ny};
+  // What the factor holds of a slot: its share of the diagonal.
+  Block holds(int slot) const {
+    const auto found = changed.find(slot);
+    if (found != changed.end()) return found->second;
+    const Block& b = matrix.coupling[static_cast<std::size_t>(slot)];
+    return {-b[0], -b[1], -b[2]};
+  }
+
+  // Makes the factor hold `target` there: a change along each of the two axes of the difference.
+  void bring(const Sheet& sheet, int slot, const Block& target, bool on) {
+    const Block now = holds(slot);
+    const Block d{target[0] - now[0], target[1] - now[1], target[2] - now[2]};
+    const double middle = 0.5 * (d[0] + d[2]), half = 0.5 * (d[0] - d[2]), size = std::sqrt(half * half + d[1] * d[1]);
+    double x = 1, y = 0;
+    if (size > 0) {
+      x = std::sqrt(std::max(0.0, 0.5 * (1 + half / size)));
+      y = std::copysign(std::sqrt(std::max(0.0, 0.5 * (1 - half / size))), d[1]);
     }
-    const Block& b = matrix.coupling[static_cast<std::size_t>(slot)];  // -(along n n^T + g), along > 0
-    const double difference = b[2] - b[0], twice = -2 * b[1];
-    const double along = std::sqrt(difference * difference + twice * twice);
-    if (along <= 0) return {1, 0};
-    const double x = std::sqrt(std::max(0.0, 0.5 * (1 + difference / along)));
-    const double y = std::sqrt(std::max(0.0, 0.5 * (1 - difference / along)));
-    return {x, twice < 0 ? -y : y};
+    const double small = least_change * sheet.stiffness[static_cast<std::size_t>(slot)];
+    if (std::fabs(middle + size) > small) change(sheet, {middle + size, slot, x, y, on});  // the stiffer first
+    if (std::fabs(middle - size) > small) change(sheet, {middle - size, slot, -y, x, on});
   }
 
   // Brings the factor up to date with springs that broke and contacts that opened or closed.
   void follow(const Sheet& sheet, const Forces& forces) {
     for (const int slot : watched) {
-      const auto k = static_cast<std::size_t>(slot);
       const bool on = active(sheet, forces, slot);
-      if (on == (held[k] != 0)) continue;
-      if (!on) {
-        const auto [nx, ny] = direction(slot);
-        change(sheet, {-sheet.stiffness[k], slot, nx, ny, false});
-        continue;
-      }
-      const auto i = static_cast<std::size_t>(sheet.first(slot)), j = static_cast<std::size_t>(sheet.second(slot));
-      change(sheet, {sheet.stiffness[k], slot, (sheet.x[j] - sheet.x[i]) / forces.length[k],
-                     (sheet.y[j] - sheet.y[i]) / forces.length[k], true});
+      if (on != (held[static_cast<std::size_t>(slot)] != 0))
+        bring(sheet, slot, tangent_block(sheet, forces, slot, Tangent::stable), on);
     }
+  }
+
+  // The same for springs in the boxes that turned since the factor was made, the farthest of them: few beside a new
+  // crack do, and as long as the factor holds them as they lay, steps go astray there.
+  void turn(const Sheet& sheet, const Forces& forces, std::span<const LatticeBox> boxes) {
+    std::vector<std::pair<double, int>> turned;
+    for (const LatticeBox& box : boxes) {
+      for (int r = box.r0; r < box.r1; ++r) {
+        for (int c = box.c0; c < box.c1; ++c) {
+          for (int d = 0; d < 3; ++d) {
+            const int slot = d * sheet.particles() + r * sheet.lattice.columns + c;
+            if (!active(sheet, forces, slot)) continue;
+            const double far = farthest(tangent_block(sheet, forces, slot, Tangent::stable), holds(slot));
+            if (far > turned_change * sheet.stiffness[static_cast<std::size_t>(slot)]) turned.emplace_back(-far, slot);
+          }
+        }
+      }
+    }
+    std::sort(turned.begin(), turned.end());
+    turned.erase(std::unique(turned.begin(), turned.end()), turned.end());
+    if (turned.size() > most_turned) turned.resize(most_turned);
+    for (const auto& [far, slot] : turned)
+      bring(sheet, slot, tangent_block(sheet, forces, slot, Tangent::stable), true);
+  }
+
+  static double farthest(const Block& a, const Block& b) {
+    return std::max({std::fabs(a[0] - b[0]), std::fabs(a[1] - b[1]), std::fabs(a[2] - b[2])});
   }
 
   // The larger component of the unbalanced force on a particle, along free directions.
@@ -439,7 +476,8 @@ struct ConvergedSolver::Impl {
     for (const int slot : near) watched.insert(std::lower_bound(watched.begin(), watched.end(), slot), slot);
     Relaxation result;
     int slow = 0, patched = 0;
-    double left = 0;  // share of the unbalanced force that the last global step left
+    std::vector<LatticeBox> boxes;  // of the patches since the last step
+    double left = 0;                // share of the unbalanced force that the last global step left
     bool fresh = false;
     // The load moved, and every direction turned a little: the breaks that follow are worth a new factor.
     if (!factorised || (!near.empty() && load_moved)) factorise(sheet, forces, Extent::whole), fresh = true;
@@ -450,7 +488,7 @@ struct ConvergedSolver::Impl {
       // Patches come after global steps: what they push over their rim is for the next global step.
       if (!settings.refactor_always && result.iterations > patched) {
         patched = result.iterations;
-        const std::vector<LatticeBox> boxes = boxes_around(sheet, forces, left > much ? Cover::worst : Cover::all);
+        boxes = boxes_around(sheet, forces, left > much ? Cover::worst : Cover::all);
         patches.relax(sheet, forces, boxes, 0.1 * settings.tolerance * forces.largest);
         done.patches += static_cast<std::int64_t>(boxes.size());
         if (!boxes.empty()) continue;
@@ -460,6 +498,7 @@ struct ConvergedSolver::Impl {
         fresh = true;
       } else {
         follow(sheet, forces);
+        if (left > turned_share) turn(sheet, forces, boxes);
         // Around a crushed place: what little each removal leaves adds up to nothing that could be solved with.
         if (factor.weakened() > most_weakened) factorise(sheet, forces, Extent::part), fresh = true;
       }
@@ -505,6 +544,7 @@ void ConvergedSolver::restore(const Sheet& sheet, const ConvergedState& state) {
   ++i.done.factorisations;
   i.factorised = true;
   i.changes.clear();
+  i.changed.clear();
   i.hold(sheet);
   for (const auto& change : state.changes) i.change(sheet, change);
   i.heat = state.heat;

@@ -45,7 +45,7 @@ struct ConvergedSettings {
 struct ConvergedState {
   std::vector<Block> coupling;  ///< of the matrix that the factor holds (its parts may stem from different times)
   struct Change {
-    double coefficient;
+    double coefficient;  ///< asked for: the factor may have made less of it
     int slot;
     double nx, ny;
     bool active;
