@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "engine/core/errors.h"
@@ -51,6 +52,7 @@ struct ConvergedSolver::Impl {
   std::vector<int> node_of_slot;    // where the tree holds each
   std::vector<std::uint8_t> stale;  // of each node of the tree
   std::vector<int> watched;         // slots that are not joined
+  std::vector<int> pressed;         // those of them that the last step of this relaxation left in contact
   double worth = 0;                 // solves that cost as much as the last factorisation
   Patches patches;
   std::vector<double> u;  // load, then displacement, in elimination order
@@ -220,12 +222,21 @@ struct ConvergedSolver::Impl {
     if (std::fabs(middle - size) > small) change(sheet, {middle - size, slot, -y, x, on});
   }
 
-  // Brings the factor up to date with springs that broke and contacts that opened or closed.
+  // Brings the factor up to date with springs that broke and contacts that opened or closed. A patch leaves a contact
+  // that bears next to nothing open by next to nothing: it counts as closed if the last step pressed it together or the
+  // factor holds it, for else the next step would press it together again, and a patch part it again, and so on.
   void follow(const Sheet& sheet, const Forces& forces) {
     for (const int slot : watched) {
-      const bool on = active(sheet, forces, slot);
-      if (on != (held[static_cast<std::size_t>(slot)] != 0))
-        bring(sheet, slot, tangent_block(sheet, forces, slot, Tangent::stable), on);
+      const auto k = static_cast<std::size_t>(slot);
+      const auto i = static_cast<std::size_t>(sheet.first(slot)), j = static_cast<std::size_t>(sheet.second(slot));
+      const double stiffness = sheet.stiffness[k], gap = forces.length[k] - (sheet.radius[i] + sheet.radius[j]);
+      const bool grazes =
+          (held[k] || std::binary_search(pressed.begin(), pressed.end(), slot)) && stiffness * gap < forces.unbalanced;
+      const bool closed = active(sheet, forces, slot) || grazes;
+      if (closed == (held[k] != 0)) continue;
+      const double nx = (sheet.x[j] - sheet.x[i]) / forces.length[k], ny = (sheet.y[j] - sheet.y[i]) / forces.length[k];
+      const double along = closed ? stiffness : 0.0;
+      bring(sheet, slot, {along * nx * nx, along * nx * ny, along * ny * ny}, closed);
     }
   }
 
@@ -475,6 +486,7 @@ struct ConvergedSolver::Impl {
     // Kept in order of slots, as after a restart: changes are made in that order.
     for (const int slot : near) watched.insert(std::lower_bound(watched.begin(), watched.end(), slot), slot);
     Relaxation result;
+    pressed.clear();
     int slow = 0, patched = 0;
     std::vector<LatticeBox> boxes;  // of the patches since the last step
     double left = 0;                // share of the unbalanced force that the last global step left
@@ -505,6 +517,9 @@ struct ConvergedSolver::Impl {
       const int solves = slow >= 2 ? newton_step(sheet, forces, std::clamp(0.9 * left * left, finest, roughest))
                                    : global_step(sheet, forces);
       left = forces.unbalanced / before;
+      pressed.clear();
+      std::copy_if(watched.begin(), watched.end(), std::back_inserter(pressed),
+                   [&](int slot) { return active(sheet, forces, slot); });
       warm(sheet, forces, before);
       result.iterations += solves;
       if (left > 0.3) ++slow;

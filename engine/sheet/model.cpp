@@ -14,7 +14,7 @@
 namespace dem::sheet {
 namespace {
 
-constexpr std::string_view version = "sheet 7";
+constexpr std::string_view version = "sheet 8";
 
 std::string words(double value) {
   std::string text = fmt::format("{:g}", value);
