@@ -1,7 +1,7 @@
 #pragma once
 // The energy ledger of a record: every column of its history that is an energy, whatever the model.
-// Columns whose name begins or ends with "work" come in, "residual" is what is left, all others are where the energy is or
-// went. A sheet keeps its energies without a unit, as multiples of the elastic constant k times the box's width squared.
+// Columns whose name begins or ends with "work" come in, "residual" is what is left, all others are where the energy is
+// or went. A sheet keeps its energies without a unit: multiples of the elastic constant k times the box's width squared.
 #include <string>
 #include <vector>
 
