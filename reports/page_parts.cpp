@@ -271,7 +271,9 @@ PageData rows_data(const std::vector<DrawnPanel>& panels, const std::filesystem:
     std::vector<LegendEntry> key = shared.legend ? members.front().legend : std::vector<LegendEntry>{};
     for (LegendEntry& entry : key) entry.count.clear();
     PageData row;
-    row.set("per_row", std::to_string(per_row));
+    // Alone in its figure, half a page wide, it would stand at the side.
+    const bool alone = panels.size() == 1 && per_row == 2 && panels.front().table.head.empty();
+    row.set("per_row", alone ? "lone" : std::to_string(per_row));
     row.set("panels", list);
     row.set("has_shared", shared.caption || shared.legend);
     row.set("has_shared_caption", shared.caption);

@@ -103,8 +103,9 @@ Panel field_panel(const dem::Record& r, const std::string& table, double strain,
   p.label = words;
   for (const double share : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
     if (!signed_values && share < 0) continue;
-    p.legend.push_back({signed_values ? diverging(share) : rising(share),
-                        number(1e3 * (low + share * (scale - low)), 3) + " × 10⁻³ k"});
+    const double at = low + share * (scale - low);
+    p.legend.push_back(
+        {signed_values ? diverging(share) : rising(share), at == 0 ? "0" : number(1e3 * at, 3) + " × 10⁻³ k"});
   }
   const auto range = std::minmax_element(value.begin(), value.end());
   return {
