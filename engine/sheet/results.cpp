@@ -284,6 +284,7 @@ void add_results(Record& record, const Settings& settings, const Specimen& speci
   put("unbalanced_force_dimensionless", experiment.state().equilibrium.worst);
   put("load_steps", experiment.state().step);
   put("solver.relaxations", static_cast<double>(work.relaxations));
+  put("solver.relaxations_that_stopped_short", static_cast<double>(experiment.state().equilibrium.missed));
   put(settings.solver == "converged" ? "solver.solves" : "solver.sweeps", static_cast<double>(work.solves));
   if (settings.solver == "converged") {
     put("solver.factorisations", static_cast<double>(work.factorisations));
