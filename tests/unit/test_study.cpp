@@ -326,8 +326,11 @@ TEST_CASE("threads are shared by the cases that have to be simulated, and memory
   Bench bench;
   SUBCASE("one each") {
     bench.options.threads = 2;
+    meet = 2;
     bench.run();
-    CHECK(seen.threads == Shares{{"count_1", 1}, {"count_2", 1}, {"count_3", 1}});
+    CHECK(seen.threads["count_1"] == 1);
+    CHECK(seen.threads["count_2"] == 1);
+    CHECK(seen.threads["count_3"] <= 2);  // both, where the others ended before it began
   }
   SUBCASE("more threads than cases") {
     bench.options.threads = 8;
