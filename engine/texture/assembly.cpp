@@ -429,7 +429,7 @@ Sample Assembly::advance(std::int64_t steps) {
   for (std::int64_t step = first; step < first + steps; ++step) {
     const bool sampling = step + 1 == first + steps, look = step % look_interval == 0;
     // 1. inside slabs; the slabs of a thread are the same here and in the integration, so that no barrier is needed between
-#pragma omp for schedule(static) nowait
+#pragma omp for schedule(static, 1) nowait
     for (int slab = 0; slab < slabs; ++slab) {
       forces(blocks_[static_cast<std::size_t>(slab)], step, look);
       if (platens_) wall_forces(static_cast<std::size_t>(slab));
@@ -438,23 +438,23 @@ Sample Assembly::advance(std::int64_t steps) {
 #pragma omp single nowait
     move_walls();
     // 2. between slabs: even pairs, then odd ones
-#pragma omp for schedule(static)
+#pragma omp for schedule(dynamic, 1)
     for (int pair = 0; pair < pairs; pair += 2) forces(blocks_[static_cast<std::size_t>(slabs + pair)], step, look);
-#pragma omp for schedule(static)
+#pragma omp for schedule(dynamic, 1)
     for (int pair = 1; pair < pairs; pair += 2) forces(blocks_[static_cast<std::size_t>(slabs + pair)], step, look);
     if (rest) {  // contacts that failure made between slabs further apart
 #pragma omp single
       forces(blocks_.back(), step, look);
     }
     if (sampling) {
-#pragma omp for schedule(static)
+#pragma omp for schedule(dynamic, 1)
       for (int b = 0; b < static_cast<int>(blocks_.size()); ++b) {
         Block& block = blocks_[static_cast<std::size_t>(b)];
         block.elastic = block_elastic(block);
       }
     }
     // 3. motion
-#pragma omp for schedule(static) nowait
+#pragma omp for schedule(static, 1) nowait
     for (int slab = 0; slab < slabs; ++slab) integrate(static_cast<std::size_t>(slab));
   }
   step_ += steps;

@@ -92,6 +92,9 @@ std::vector<Key> declare() {
       number("solver.damping", "", 0, 0.95, "0.7", "local damping alpha"),
       number("solver.time_step_factor", "", 0.01, 1, "0.8", "of the critical step from the stiffness sums"),
       number("compression.rate", "", 1e-10, 1e-4, "1e-7", "platen strain a step"),
+      // Not below "compression.": a case depends on the rate that it runs at, wherever that was written.
+      number("confined_compression.rate", "", 0, 1e-4, "0.0",
+             "platen strain a step under confining pressure; 0: compression.rate"),
       number("compression.ramp_strain", "", 1e-9, 1e-2, "2e-5", "strain over which the platens reach their speed"),
       number("compression.stop", "", 0.05, 0.999, "0.8", "the test ends at this share of the peak, after it"),
       number("compression.strain_limit", "", 1.05, 20, "3.0", "or at this multiple of the strain of the peak"),

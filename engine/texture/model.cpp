@@ -56,6 +56,9 @@ CaseSpec make_case(const Scenario& base, const std::string& test, const Variant&
                       .with("texture.only_mineral", v.only_mineral)
                       .with("compression.confining_pressure", v.confining_pressure)
                       .with("seed", v.seed);
+  if (const double rate = base.real("confined_compression.rate"); v.confining_pressure > 0 && rate > 0) {
+    spec.scenario = spec.scenario.with("compression.rate", rate);
+  }
   if (!base.reals("sweep.dip").empty() || v.dip != 0) spec.id += "_dip_" + word(dip);
   if (pressure > 0) spec.id += "_sigma3_" + word(pressure);
   if (v.seed_scale != base.real("texture.seed_scale")) spec.id += "_seed_scale_" + word(v.seed_scale);

@@ -7,7 +7,9 @@
 
 #include "engine/core/archive.h"
 #include "engine/core/random.h"
+#include "engine/texture/keys.h"
 #include "engine/texture/loading.h"
+#include "engine/texture/model.h"
 #include "tests/support/granite.h"
 #include "tests/support/near.h"
 
@@ -176,4 +178,21 @@ TEST_CASE("the vector code of broken joints does what the scalar law does") {
     CHECK(loop.heat == test::near(heat).epsilon(1e-10));
   }
   CHECK(compared > 50);
+}
+
+TEST_CASE("tests under confining pressure have a rate of their own") {
+  const auto cases = [](const std::vector<std::string>& set) {
+    return model().cases(dem::Scenario::read(DEM_SOURCE_DIR "/scenarios/my_rock.toml", "draft", set,
+                                             [](std::string_view) { return keys(); }));
+  };
+  const std::string both = R"(sweep.confining_pressure=["0 MPa", "10 MPa"])";
+  const auto rate = [](const dem::CaseSpec& spec) { return read_settings(spec.scenario, TestKind::compression).rate; };
+  const auto own = cases({both, "compression.rate=5e-8", "confined_compression.rate=1e-7"});
+  CHECK(rate(own[0]) == 5e-8);
+  CHECK(rate(own[1]) == 1e-7);
+  const auto same = cases({both, "compression.rate=1e-7"});
+  CHECK(rate(same[1]) == 1e-7);
+  // What a case depends on is the rate that it runs at: records are kept however that was written.
+  CHECK(own[1].content == same[1].content);
+  CHECK(own[0].content != same[0].content);
 }
