@@ -2,18 +2,20 @@
 #include "engine/texture/lanes.h"  // first: see there
 
 #include "engine/texture/assembly.h"
+#include "engine/texture/packs.h"
 #include "engine/texture/parallel_bond.h"
 
 #include <omp.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace dem::texture {
 namespace {
 
-constexpr double huge = 1e300;
+constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::int64_t look_interval = 10;  // steps between looks at near pairs
 constexpr double parted = 0.05;             // a broken contact open by this share of its length is dropped
 
@@ -21,6 +23,14 @@ using Row = Lanes4;
 Row& row(Row8& r, int half) { return *reinterpret_cast<Row*>(r.v + 4 * half); }
 Triple<double> triple(const Row8& r, int half) { return {r.v[4 * half], r.v[4 * half + 1], r.v[4 * half + 2]}; }
 Vec3 array(const Triple<double>& t) { return {t.x, t.y, t.z}; }
+// For closed_joints(): what stays_open() needs. A lane without a living joint is always open.
+void watch(OpenJointPack& pack, std::size_t lane, const PartlyBrokenJoint& joint, bool alive) {
+  const double reach = joint.open != 0 ? 4 * joint.law.rho * joint.law.rho : infinite;
+  pack.length[lane] = alive ? joint.reference_length : -infinite;
+  pack.reach[lane] = alive ? reach : 0;
+  pack.first[lane] = joint.first;
+  pack.second[lane] = joint.second;
+}
 
 }  // namespace
 
@@ -107,6 +117,22 @@ void Assembly::move_walls() {
   }
 }
 
+// Which broken joints have to be looked at: most are open, and show without further work that they still are.
+void Assembly::find_active(Block& block) const {
+  const auto count = static_cast<std::int64_t>(block.broken.size());
+  if (block.watched != count) {
+    block.watch.resize((block.broken.size() + pack_width - 1) / pack_width);
+    for (std::size_t at = 0; at < block.watch.size() * pack_width; ++at) {
+      const PartlyBrokenJoint& joint = block.broken[std::min(at, block.broken.size() - 1)];
+      watch(block.watch[at / pack_width], at % pack_width, joint, joint.alive && at < block.broken.size());
+    }
+    block.watched = count;
+  }
+  block.active.resize(block.watch.size() * pack_width);
+  block.active.resize(static_cast<std::size_t>(kernels_->closed_joints(
+      block.watch.data(), static_cast<std::int32_t>(count), pose_.front().v, block.active.data())));
+}
+
 void Assembly::forces(Block& block, std::int64_t step, bool look_for_contacts) {
   BondLoop loop{pose_.front().v, force_.front().v, block.flagged.data(), 0, 0};
   if (!block.joints.empty()) {
@@ -118,12 +144,7 @@ void Assembly::forces(Block& block, std::int64_t step, bool look_for_contacts) {
     block.friction += loop.heat;
     if (loop.flagged_count > 0) bond_events(block, step, loop.flagged_count);
   }
-  block.active.clear();
-  for (std::size_t k = 0; k < block.broken.size(); ++k) {
-    const PartlyBrokenJoint& joint = block.broken[k];
-    if (!joint.alive || (joint.open && stays_open(joint, pose(joint.first), pose(joint.second)))) continue;
-    block.active.push_back(static_cast<std::int32_t>(k));
-  }
+  find_active(block);
   if (!block.active.empty()) {
     kernels_->broken_joints(block.broken.data(), block.active.data(), static_cast<std::int32_t>(block.active.size()),
                             loop);
@@ -149,6 +170,11 @@ void Assembly::forces(Block& block, std::int64_t step, bool look_for_contacts) {
       block.cracks.push_back({static_cast<double>(step), joint.contact, static_cast<std::int8_t>(e.shear), 0,
                               array(e.position), array(e.normal), std::numbers::pi * r * r / 3});
     }
+  }
+  for (const std::int32_t k : block.active) {
+    const auto at = static_cast<std::size_t>(k);
+    const PartlyBrokenJoint& joint = block.broken[at];
+    watch(block.watch[at / pack_width], at % pack_width, joint, joint.alive);
   }
   for (FreshContact& contact : block.fresh) {
     if (contact.alive == 0) continue;
@@ -285,10 +311,7 @@ void Assembly::joint_events(Block& block, std::int32_t count) {
     const Motion<double> m = motion(one, two, joint.reference, joint.share_one, joint.reference_length);
     const Action<double> intact = action(m, stiffness(joint.law));
     add(joint.first, joint.second, Action<double>{} - intact);
-    pack.field[F::normal][lane] = 0;
-    pack.field[F::opening][lane] = huge;
-    pack.field[F::cohesion][lane] = huge;
-    pack.field[F::tan_phi][lane] = 0;
+    retire(pack, static_cast<std::size_t>(lane));
     block.broken.push_back(joint);
   }
 }
@@ -319,10 +342,7 @@ void Assembly::bond_events(Block& block, std::int64_t step, std::int32_t count) 
     block.cracks.push_back({static_cast<double>(step), block.bond_contact[static_cast<std::size_t>(slot)],
                             static_cast<std::int8_t>(shear), 1, array(one.x + (get(F::share_one) * m.length) * m.n),
                             array(m.n), std::numbers::pi * bond.radius * bond.radius});
-    pack.field[F::normal][lane] = 0;
-    pack.field[F::opening][lane] = huge;
-    pack.field[F::cohesion][lane] = huge;
-    pack.field[F::tan_phi][lane] = 0;
+    retire(pack, static_cast<std::size_t>(lane));
   }
 }
 
@@ -489,6 +509,10 @@ Sample Assembly::advance(std::int64_t steps) {
   }
   std::stable_sort(cracks_.begin() + older, cracks_.end(),
                    [](const Crack& a, const Crack& b) { return a.step < b.step; });
+  for (Block& block : blocks_) {
+    close_ranks(block.joints, block.joint_contact);
+    close_ranks(block.bonds, block.bond_contact);
+  }
   maintain();
   return sample;
 }
@@ -508,6 +532,7 @@ void Assembly::maintain() {
       joint.alive = root(dot(d, d)) < (1 + parted) * joint.reference_length;
     }
     std::erase_if(block.broken, [](const PartlyBrokenJoint& joint) { return !joint.alive; });
+    block.watched = -1;
     using F = ParallelBondPack;
     for (std::size_t slot = 0; slot < block.bond_contact.size(); ++slot) {
       ParallelBondPack& pack = block.bonds[slot / pack_width];

@@ -163,11 +163,14 @@ class Assembly {
     std::vector<FreshContact> fresh;
     std::vector<std::array<std::int32_t, 2>> candidates;  ///< near pairs without contact
     std::vector<std::int32_t> flagged;
+    std::vector<OpenJointPack> watch;  ///< of `broken`, in its order; made anew when `watched` is not its size
+    std::int64_t watched = 0;
     std::vector<std::int32_t> active;  ///< broken joints that do not stay open in this step
     std::vector<Crack> cracks;
     double friction = 0, bond_tension = 0, bond_shear = 0, elastic = 0;
     template <class Archive>
     void archive(Archive& a) {
+      watched = -1;
       a(joints, joint_contact, bonds, bond_contact, broken, fresh, candidates, flagged, cracks, friction, bond_tension,
         bond_shear, elastic);
     }
@@ -184,6 +187,7 @@ class Assembly {
   void install(const AssemblyInput& input);
   void choose_time_step(const AssemblyInput& input);
   void forces(Block& block, std::int64_t step, bool look_for_contacts);
+  void find_active(Block& block) const;
   void roll(Block& block, PartlyBrokenJoint& joint, const Action<double>& action);
   void roll(Block& block, ParallelBondPack& pack, int lane);
   void joint_events(Block& block, std::int32_t count);

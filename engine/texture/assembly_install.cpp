@@ -5,11 +5,11 @@
 #include <stdexcept>
 
 #include "engine/texture/assembly.h"
+#include "engine/texture/packs.h"
 
 namespace dem::texture {
 namespace {
 
-constexpr double huge = 1e300;
 constexpr double pi = std::numbers::pi;
 
 struct SlabRule {
@@ -95,22 +95,6 @@ void fill_lane(ParallelBondPack& pack, int lane, const BondSpec& spec, const Tri
                                     0,
                                     0};
   for (int f = 0; f < F::fields; ++f) pack.field[f][lane] = values[f];
-}
-
-// A padding lane repeats the particles of a real one and does nothing.
-template <class Pack>
-void pad(Pack& pack, int from) {
-  using F = Pack;
-  for (int lane = from; lane < pack_width; ++lane) {
-    for (int f = 0; f < F::fields; ++f) pack.field[f][lane] = pack.field[f][from - 1];
-    pack.first[lane] = pack.first[from - 1];
-    pack.second[lane] = pack.second[from - 1];
-    pack.field[F::normal][lane] = 0;
-    pack.field[F::opening][lane] = huge;
-    pack.field[F::cohesion][lane] = huge;
-    pack.field[F::tan_phi][lane] = 0;
-    if constexpr (requires { F::linear_normal; }) pack.field[F::linear_normal][lane] = 0;
-  }
 }
 
 }  // namespace
@@ -211,12 +195,8 @@ void Assembly::install(const AssemblyInput& input) {
     }
   }
   for (Block& block : blocks_) {
-    const auto finish = [](auto& packs, std::vector<std::int32_t>& contact) {
-      if (const int used = static_cast<int>(contact.size() % pack_width)) pad(packs.back(), used);
-      contact.resize(packs.size() * pack_width, -1);
-    };
-    finish(block.joints, block.joint_contact);
-    finish(block.bonds, block.bond_contact);
+    pad(block.joints, block.joint_contact);
+    pad(block.bonds, block.bond_contact);
     block.flagged.resize(std::max(block.joint_contact.size(), block.bond_contact.size()));
   }
   for (std::size_t i = 0; platens_ && i < n; ++i) {  // platen contacts start free of stress, like bonds

@@ -34,7 +34,7 @@ ElementMotion element_motion(const Motion<double>& m, const Triple<double>& rho,
   ElementMotion r;
   r.gap = m.gap + dot(m.n, cross(m.theta_t, rho));
   r.shear = m.u + m.theta_n * cross(m.n, rho);
-  if (!element.bonded) {
+  if (element.bonded == 0) {
     const Triple<double> slip = rotate(one.q, element.slip);
     r.shear = r.shear - (slip - dot(slip, m.n) * m.n);
   }
@@ -57,13 +57,13 @@ JointResult advance(PartlyBrokenJoint& joint, const Pose<double>& one, const Pos
   const Motion<double> m = motion(one, two, joint.reference, joint.share_one, joint.reference_length);
   // Nothing acts while no point of the rim can touch.
   if (joint.broken() && m.gap > 0 && m.gap * m.gap > joint.law.rho * joint.law.rho * dot(m.theta_t, m.theta_t)) {
-    if (!joint.open) {
+    if (joint.open == 0) {
       for (JointElement& element : joint.element) {  // the mean of the last friction and none, over the slip
         result.friction_heat +=
             half * (joint.law.normal / 3.0 * joint.law.inverse_ratio) * dot(element.shear, element.shear);
         element.shear = {0, 0, 0};
       }
-      joint.open = true;
+      joint.open = 1;
     }
     return result;
   }
@@ -71,8 +71,8 @@ JointResult advance(PartlyBrokenJoint& joint, const Pose<double>& one, const Pos
   const double kn = joint.law.normal / 3.0;  // of an element, N/m
   const double ks = kn * joint.law.inverse_ratio;
   const bool torn = mismatched(m);
-  const bool closes = joint.open;
-  joint.open = false;
+  const bool closes = joint.open != 0;
+  joint.open = 0;
   Triple<double> force{0, 0, 0}, couple{0, 0, 0};
   for (int e = 0; e < 3; ++e) {
     JointElement& element = joint.element[e];
@@ -85,7 +85,7 @@ JointResult advance(PartlyBrokenJoint& joint, const Pose<double>& one, const Pos
     const Triple<double> whole = (-kn * at.gap) * m.n - ks * at.shear;
     const double before = half * (kn * at.gap * at.gap + ks * length * length);
     bool breaks_now = false, in_shear = false;
-    if (element.bonded) {
+    if (element.bonded != 0) {
       if (at.gap > joint.law.opening) {
         breaks_now = true;
       } else if (length * joint.law.inverse_ratio > joint.law.cohesion - at.gap * joint.law.tan_phi) {
@@ -94,10 +94,10 @@ JointResult advance(PartlyBrokenJoint& joint, const Pose<double>& one, const Pos
         breaks_now = true;
         in_shear = at.gap < 0;
       }
-      element.bonded = !breaks_now;
+      element.bonded = breaks_now ? 0 : 1;
     }
     double normal = kn * at.gap;
-    if (!element.bonded) {
+    if (element.bonded == 0) {
       normal = std::min(normal, 0.0);
       const double limit = -joint.friction * normal;  // N
       const double trial = ks * length;
@@ -132,14 +132,14 @@ JointResult advance(PartlyBrokenJoint& joint, const Pose<double>& one, const Pos
 }
 
 double stored(const PartlyBrokenJoint& joint, const Pose<double>& one, const Pose<double>& two) {
-  if (joint.open) return 0;
+  if (joint.open != 0) return 0;
   const Motion<double> m = motion(one, two, joint.reference, joint.share_one, joint.reference_length);
   const Arms arm = arms(joint, one, m);
   const double kn = joint.law.normal / 3.0, ks = kn * joint.law.inverse_ratio;
   double sum = 0;
   for (int e = 0; e < 3; ++e) {
     const ElementMotion at = element_motion(m, arm.rho[e], joint.element[e], one);
-    const double gap = joint.element[e].bonded ? at.gap : std::min(at.gap, 0.0);
+    const double gap = joint.element[e].bonded != 0 ? at.gap : std::min(at.gap, 0.0);
     sum += half * (kn * gap * gap + ks * dot(at.shear, at.shear));
   }
   return sum;

@@ -55,29 +55,32 @@ DEM_INLINE auto may_break(const Motion<V>& m, const FlatJoint<V>& j) {
   return (normal > j.opening) | (shear > j.cohesion - normal * j.tan_phi);
 }
 
-/// One element of three, for joints that are looked at element by element.
+/// One element of three, for joints that are looked at element by element. Two rows of four doubles, as the vector code
+/// reads it: truths are 1 or 0.
 struct JointElement {
-  bool bonded = true;
-  Triple<double> slip{0, 0, 0};   ///< shear displacement without stress, in the frame of particle 1, m
+  Triple<double> slip{0, 0, 0};  ///< shear displacement without stress, in the frame of particle 1, m
+  double bonded = 1;
   Triple<double> shear{0, 0, 0};  ///< elastic shear displacement one step ago, m; for the account of friction
+  double unused = 0;
 };
 
-/// A flat joint with its elements, and what it takes to evaluate and log it.
-struct PartlyBrokenJoint {
-  int first = 0, second = 0;   ///< particles
-  int contact = 0;             ///< index in the specimen's contact table
+/// A flat joint with its elements, and what it takes to evaluate and log it. The vector code (broken_joints in kernels.inc)
+/// reads ten rows of four doubles in this order.
+struct alignas(32) PartlyBrokenJoint {
   Triple<double> reference{};  ///< D, m
   double share_one = 0.5;
-  double reference_length = 0;  ///< |D|, m
-  FlatJoint<double> law{};
-  double friction = 0;  ///< mu
   Triple<double>
       zero_angle{};  ///< unit vector in the joint's plane (frame of particle 1) from which angles are counted
+  double open = 0;   ///< 1: all three elements broken and apart in the last step
+  FlatJoint<double> law{};
+  double friction = 0;          ///< mu
+  double reference_length = 0;  ///< |D|, m
   JointElement element[3];
-  bool alive = true;  ///< false: parted for good and dropped
-  bool open = false;  ///< all three elements broken and apart in the last step
+  int first = 0, second = 0;  ///< particles
+  int contact = 0;            ///< index in the specimen's contact table
+  bool alive = true;          ///< false: parted for good and dropped
 
-  [[nodiscard]] bool broken() const { return !element[0].bonded && !element[1].bonded && !element[2].bonded; }
+  [[nodiscard]] bool broken() const { return element[0].bonded + element[1].bonded + element[2].bonded == 0; }
 };
 
 /// Directions of the three elements from the zero angle: 60, 180 and 300 degrees.
@@ -90,7 +93,7 @@ DEM_INLINE bool stays_open(const PartlyBrokenJoint& joint, const Pose<double>& o
   const double gap = root(dot(d, d)) - joint.reference_length;
   const Quaternion<double> q = relative(two.q, one.q);
   const double half_theta_squared = q.x * q.x + q.y * q.y + q.z * q.z;
-  return joint.open && gap > 0 && gap * gap > 4 * joint.law.rho * joint.law.rho * half_theta_squared;
+  return joint.open != 0 && gap > 0 && gap * gap > 4 * joint.law.rho * joint.law.rho * half_theta_squared;
 }
 
 /// A fixed direction perpendicular to D.

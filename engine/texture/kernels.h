@@ -75,6 +75,14 @@ struct MotionLoop {
 
 struct PartlyBrokenJoint;
 
+/// What it takes to see that eight broken joints stay open. A joint that is not open has an infinite reach, one that was
+/// dropped none and a length of minus infinity.
+struct alignas(64) OpenJointPack {
+  double length[pack_width];  ///< distance at rest, m
+  double reach[pack_width];   ///< (2 rho)^2, m^2
+  std::int32_t first[pack_width], second[pack_width];
+};
+
 struct Kernels {
   const char* name;  ///< "sse2", "avx2", "avx512"
   void (*flat_joints)(const FlatJointPack*, std::int32_t packs, BondLoop&);
@@ -82,6 +90,8 @@ struct Kernels {
   double (*flat_joint_energy)(const FlatJointPack*, std::int32_t packs, const double* pose);
   double (*parallel_bond_energy)(const ParallelBondPack*, std::int32_t packs, const double* pose);
   void (*integrate)(MotionLoop&);
+  /// Those of `count` joints that do not stay open in this step, by number and in order, into `active`; returns how many.
+  std::int32_t (*closed_joints)(const OpenJointPack*, std::int32_t count, const double* pose, std::int32_t* active);
   /// Those joints of `list` in which no element breaks and whose broken faces still match; the others are flagged by their
   /// number in `joints` and left alone.
   void (*broken_joints)(PartlyBrokenJoint* joints, const std::int32_t* list, std::int32_t count, BondLoop&);

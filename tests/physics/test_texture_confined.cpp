@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 #include "engine/core/archive.h"
 #include "engine/core/random.h"
 #include "engine/texture/keys.h"
 #include "engine/texture/loading.h"
 #include "engine/texture/model.h"
+#include "engine/texture/packs.h"
 #include "tests/support/granite.h"
 #include "tests/support/near.h"
 
@@ -178,6 +181,107 @@ TEST_CASE("the vector code of broken joints does what the scalar law does") {
     CHECK(loop.heat == test::near(heat).epsilon(1e-10));
   }
   CHECK(compared > 50);
+}
+
+TEST_CASE("the vector code flags the intact joints that the scalar law breaks, and finds the broken ones that close") {
+  dem::RandomStream random(6, dem::Purpose::test_data);
+  const auto vector = [&](double size) {
+    return T{random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
+  };
+  const ContactGroup group = inside(dem_test::granite(10, 20).minerals[1], JointModulus::sum);
+  constexpr std::size_t packs = 40, count = packs * pack_width;
+  const double r = 0.4e-3, kn = group.bond_modulus / (2 * r), area = std::numbers::pi * r * r;
+  std::vector<FlatJointPack> intact(packs);
+  std::vector<OpenJointPack> watched(packs);
+  std::vector<PartlyBrokenJoint> joints;
+  std::vector<Row8> pose(2 * count), force(2 * count);
+  for (std::size_t k = 0; k < count; ++k) {
+    PartlyBrokenJoint j;
+    j.first = static_cast<int>(2 * k);
+    j.second = j.first + 1;
+    j.reference = vector(0.6e-3);
+    j.reference_length = std::sqrt(dot(j.reference, j.reference));
+    j.law = {kn * area,           1 / group.bond_stiffness_ratio, flat_joint_arm * r, group.tensile_strength / kn,
+             group.cohesion / kn, std::tan(group.friction_angle)};
+    j.zero_angle = any_perpendicular(j.reference);
+    const T d = j.reference + vector(5e-7), a = vector(4e-4), b = vector(4e-4);
+    pose[2 * k] = {{0, 0, 0, r, std::sqrt(1 - dot(a, a)), a.x, a.y, a.z}};
+    pose[2 * k + 1] = {{d.x, d.y, d.z, r, std::sqrt(1 - dot(b, b)), b.x, b.y, b.z}};
+    FlatJointPack& pack = intact[k / pack_width];
+    const std::size_t lane = k % pack_width;
+    const double values[] = {j.reference.x,      j.reference.y,  j.reference.z,       j.share_one,
+                             j.reference_length, j.law.normal,   j.law.inverse_ratio, j.law.rho,
+                             j.law.opening,      j.law.cohesion, j.law.tan_phi};
+    static_assert(std::size(values) == FlatJointPack::fields);
+    for (std::size_t f = 0; f < std::size(values); ++f) pack.field[f][lane] = values[f];
+    OpenJointPack& watch = watched[k / pack_width];
+    j.open = random.uniform(0, 1) < 0.7 ? 1 : 0;
+    watch.length[lane] = j.reference_length;
+    watch.reach[lane] = j.open != 0 ? 4 * j.law.rho * j.law.rho : std::numeric_limits<double>::infinity();
+    pack.first[lane] = watch.first[lane] = j.first;
+    pack.second[lane] = watch.second[lane] = j.second;
+    joints.push_back(j);
+  }
+  const auto at = [&](int p) {
+    const double* v = pose[static_cast<std::size_t>(p)].v;
+    return Pose<double>{{v[0], v[1], v[2]}, {v[4], v[5], v[6], v[7]}};
+  };
+  std::vector<std::int32_t> breaking, closed;
+  for (std::size_t k = 0; k < count; ++k) {
+    PartlyBrokenJoint probe = joints[k];
+    if (!stays_open(probe, at(probe.first), at(probe.second))) closed.push_back(static_cast<std::int32_t>(k));
+    probe.open = 0;
+    if (advance(probe, at(probe.first), at(probe.second)).breaks > 0) breaking.push_back(static_cast<std::int32_t>(k));
+  }
+  CHECK(breaking.size() > count / 10);
+  CHECK(breaking.size() < count * 9 / 10);
+  CHECK(closed.size() > count / 3);
+  CHECK(closed.size() < count * 9 / 10);
+  for (const char* name : {"sse2", "wide", "avx2", "avx512"}) {
+    const Kernels* set = kernels(name);
+    if (!set) continue;
+    CAPTURE(name);
+    std::vector<std::int32_t> found(count);
+    BondLoop loop{pose.front().v, force.front().v, found.data(), 0, 0};
+    set->flat_joints(intact.data(), static_cast<std::int32_t>(packs), loop);
+    found.resize(static_cast<std::size_t>(loop.flagged_count));
+    CHECK(found == breaking);
+    found.resize(count);
+    found.resize(static_cast<std::size_t>(
+        set->closed_joints(watched.data(), static_cast<std::int32_t>(count), pose.front().v, found.data())));
+    CHECK(found == closed);
+  }
+}
+
+TEST_CASE("lanes that are out of use leave the packs, the others keep their order") {
+  std::vector<FlatJointPack> packs(4);
+  std::vector<std::int32_t> contact;
+  for (std::size_t slot = 0; slot < 29; ++slot) {
+    FlatJointPack& pack = packs[slot / pack_width];
+    for (auto& field : pack.field) field[slot % pack_width] = static_cast<double>(slot + 1);
+    pack.first[slot % pack_width] = static_cast<std::int32_t>(slot);
+    contact.push_back(static_cast<std::int32_t>(100 + slot));
+  }
+  pad(packs, contact);
+  CHECK(contact.size() == 32);
+  CHECK(contact[29] == -1);
+  retire(packs[0], 3);
+  close_ranks(packs, contact);
+  CHECK(packs.size() == 4);  // 28 of 32 lanes live: nothing to gain
+  for (std::size_t slot = 8; slot < 24; ++slot) retire(packs[slot / pack_width], slot % pack_width);
+  close_ranks(packs, contact);
+  REQUIRE(packs.size() == 2);
+  const std::vector<std::int32_t> left{100, 101, 102, 104, 105, 106, 107, 124, 125, 126, 127, 128, -1, -1, -1, -1};
+  CHECK(contact == left);
+  for (std::size_t slot = 0; slot < 16; ++slot) {
+    const FlatJointPack& pack = packs[slot / pack_width];
+    CHECK(lives(pack, slot % pack_width) == (slot < 12));
+    CHECK(pack.first[slot % pack_width] == std::max(contact[slot], 0) % 100 + (slot < 12 ? 0 : 28));
+  }
+  for (std::size_t slot = 0; slot < 12; ++slot) retire(packs[slot / pack_width], slot % pack_width);
+  close_ranks(packs, contact);
+  CHECK(packs.empty());
+  CHECK(contact.empty());
 }
 
 TEST_CASE("tests under confining pressure have a rate of their own") {
