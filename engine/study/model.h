@@ -49,6 +49,7 @@ struct CaseSpec {
   Scenario scenario;    ///< resolved, with the swept values of this case put in
   std::string content;  ///< canonical text of everything the result depends on, seed and physics version included
   std::vector<std::pair<std::string, std::variant<double, std::string>>> parameters;
+  int threads = 1;  ///< that serve it better than a case beside it serves the study (a case that fills the cache)
 };
 
 /// One model of the program; see models().

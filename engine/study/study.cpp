@@ -91,11 +91,13 @@ class Runner {
   /// How many cases may run at a time; marks those that wait for it.
   int count_places() {
     if (free_threads_ == 1) return 1;  // nothing to share
+    int each = 1;
     for (std::size_t i = 0; i < study_.cases.size(); ++i) {
       const CaseSpec& spec = study_.cases[i];
       waiting_[i] = may_simulate(spec) && (options_.force || !is_current(spec, path_of(spec)));
+      if (waiting_[i]) each = std::max(each, spec.threads);
     }
-    std::uint64_t places = std::min<std::uint64_t>(free_threads_, std::ranges::count(waiting_, true));
+    std::uint64_t places = std::min<std::uint64_t>(free_threads_ / each, std::ranges::count(waiting_, true));
     if (options_.memory > 0) places = std::min(places, options_.memory / memory_of_a_case);
     return static_cast<int>(std::max<std::uint64_t>(places, 1));
   }

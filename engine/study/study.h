@@ -39,7 +39,7 @@ void check_case(const Study& study, const std::string& id);
 
 struct StudyOptions {
   std::filesystem::path output = "out";
-  int threads = 1;  ///< for all cases together: they run side by side, with one each while there are enough
+  int threads = 1;  ///< for all cases together: they run side by side, each with as many as it asks for (CaseSpec)
   std::uint64_t memory =
       0;                  ///< bytes of the machine: at most one case for every 2 GiB runs at a time; 0: no such bound
   std::string only_case;  ///< run only this one; the others are taken when their record is current

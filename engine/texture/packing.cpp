@@ -144,8 +144,10 @@ class Settling {
   int removed_ = 0;
 };
 
+double wanted_volume(const PackingSettings& settings) { return (1 - settings.porosity) * volume(settings.vessel); }
+
 std::vector<Sphere> draw_cloud(const PackingSettings& settings) {
-  const double wanted = (1 - settings.porosity) * volume(settings.vessel);
+  const double wanted = wanted_volume(settings);
   std::vector<Sphere> cloud;
   double filled = 0;
   RandomStream radii(settings.seed, Purpose::packing_radii);
@@ -183,6 +185,12 @@ std::vector<std::array<std::int32_t, 2>> touching(const std::vector<Sphere>& sph
 }
 
 }  // namespace
+
+double expected_spheres(const PackingSettings& settings) {
+  // Radii are uniform from R_min to q R_min: the mean of their cubes is R_min^3 (1 + q) (1 + q^2) / 4.
+  const double q = settings.radius_ratio;
+  return wanted_volume(settings) / (sphere_volume(settings.radius_min) * (1 + q) * (1 + q * q) / 4);
+}
 
 double volume(const Cylinder& vessel) { return pi / 4 * vessel.diameter * vessel.diameter * vessel.height; }
 

@@ -39,7 +39,8 @@ std::vector<std::size_t> space_filling_order(const std::vector<Sphere>& spheres)
 /// A point for the centre of a sphere of radius `r`, uniform over the places where it lies within the vessel.
 Vec3 random_place(const Cylinder& vessel, double r, std::uint64_t seed, Purpose purpose, std::uint32_t index);
 
-double volume(const Cylinder& vessel);  ///< m3
-double sphere_volume(double radius);    ///< m3
+double expected_spheres(const PackingSettings& settings);  ///< of the cloud that is drawn, in the mean
+double volume(const Cylinder& vessel);                     ///< m3
+double sphere_volume(double radius);                       ///< m3
 
 }  // namespace dem::texture

@@ -36,6 +36,8 @@ std::span<const dem::Key> counter_keys() {
   return keys;
 }
 
+int threads_asked = 1;  ///< by each case
+
 template <int version>
 std::vector<dem::CaseSpec> counter_cases(const dem::Scenario& scenario) {
   const std::vector<std::string> prefixes = {"load.", "seed"};
@@ -45,7 +47,8 @@ std::vector<dem::CaseSpec> counter_cases(const dem::Scenario& scenario) {
     cases.push_back({"count_" + std::to_string(static_cast<int>(value)),
                      one,
                      one.canonical(prefixes) + "physics version = " + std::to_string(version) + "\n",
-                     {{"value", value}}});
+                     {{"value", value}},
+                     threads_asked});
   }
   return cases;
 }
@@ -154,6 +157,7 @@ struct Bench {
     stop_at = -1;
     meet = 1;
     grows = 0;
+    threads_asked = 1;
     options.output = folder / "out";
     options.stop = &stop;
     std::ofstream(folder / "study.toml") << "model = \"counter\"\n[scales.draft]\n";
@@ -361,6 +365,21 @@ TEST_CASE("threads are shared by the cases that have to be simulated, and memory
     bench.options.threads = 4;
     bench.run({"sweep.value=[1, 2, 3, 4]"});
     CHECK(seen.threads == Shares{{"count_4", 4}});
+  }
+  SUBCASE("cases that ask for two each") {
+    bench.options.threads = 5;
+    meet = 2;
+    threads_asked = 2;
+    bench.run();
+    CHECK(seen.most_inside == 2);
+    for (const auto& [id, threads] : seen.threads) CHECK(threads >= 2);
+  }
+  SUBCASE("cases that ask for more than there are: one after the other, with all of them") {
+    bench.options.threads = 2;
+    threads_asked = 7;
+    bench.run();
+    CHECK(seen.threads == Shares{{"count_1", 2}, {"count_2", 2}, {"count_3", 2}});
+    CHECK(seen.most_inside == 1);
   }
   SUBCASE("a small machine: one after the other, with all threads") {
     bench.options.threads = 2;
