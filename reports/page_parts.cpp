@@ -255,14 +255,31 @@ PageData panel_data(const DrawnPanel& panel, const std::filesystem::path& folder
   return data;
 }
 
+// Where a series (cases told apart by a label, under one caption) that fills a row follows another such series: it begins
+// a row, so that each row says once what it shows.
+std::vector<bool> row_starts(const std::vector<DrawnPanel>& panels) {
+  std::vector<bool> starts(panels.size(), false);
+  bool after_series = false;
+  for (std::size_t i = 0; i < panels.size();) {
+    std::size_t end = i + 1;
+    while (end < panels.size() && !panels[end].label.empty() && panels[end].caption == panels[i].caption) ++end;
+    const bool series = !panels[i].label.empty() && end - i >= static_cast<std::size_t>(std::max(2, panels[i].per_row));
+    starts[i] = series && after_series;
+    after_series = series;
+    i = end;
+  }
+  return starts;
+}
+
 // Neighbours that go beside each other share a row.
 PageData rows_data(const std::vector<DrawnPanel>& panels, const std::filesystem::path& folder) {
   PageData rows = new_list();
+  const std::vector<bool> starts = row_starts(panels);
   for (std::size_t i = 0; i < panels.size();) {
     const int per_row = std::max(1, panels[i].per_row);
     std::size_t end = i;
     while (end < panels.size() && end - i < static_cast<std::size_t>(per_row) &&
-           std::max(1, panels[end].per_row) == per_row)
+           std::max(1, panels[end].per_row) == per_row && !(end > i && starts[end]))
       ++end;
     const std::span<const DrawnPanel> members(&panels[i], end - i);
     const Shared shared = shared_by(members);

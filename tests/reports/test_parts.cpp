@@ -161,3 +161,27 @@ TEST_CASE("cases are told apart by what sets them apart") {
   CHECK(reports::case_label(study, study.cases[1]) == "seed scale 0.675");
   CHECK(reports::case_label(study, study.cases[2]) == "c d");
 }
+
+TEST_CASE("a series that fills a row begins one after another such series") {
+  const auto rows = [](const std::vector<std::pair<std::string, int>>& series, int per_row) {
+    const reports::Figure figure{};
+    reports::DrawnFigure drawn;
+    drawn.figure = &figure;
+    for (const auto& [caption, count] : series) {
+      for (int k = 0; k < count; ++k) {
+        reports::DrawnPanel panel;
+        panel.letter = static_cast<char>('a' + static_cast<int>(drawn.panels.size()));
+        panel.caption = caption;
+        panel.label = "case";
+        panel.per_row = per_row;
+        drawn.panels.push_back(panel);
+      }
+    }
+    return kainjow::mustache::mustache("{{#f}}{{#panel_rows}}{{#panels}}{{letter}}{{/panels}} {{/panel_rows}}{{/f}}")
+        .render(kainjow::mustache::data("f", reports::figures_data({drawn}, {})));
+  };
+  CHECK(rows({{"whole", 7}, {"cut", 7}}, 4) == "abcd efg hijk lmn ");
+  CHECK(rows({{"whole", 1}, {"cut", 7}}, 4) == "abcd efgh ");
+  CHECK(rows({{"whole", 2}, {"cut", 2}}, 4) == "abcd ");
+  CHECK(rows({{"whole", 5}, {"cut", 5}}, 5) == "abcde fghij ");
+}
