@@ -9,11 +9,12 @@ namespace reports {
 namespace {
 
 std::string label_of(const std::string& column) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 11> known{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 12> known{
       {{"work", "Work of the platens"},
        {"boundary_work", "Work of the walls"},
        {"growth_work", "Work of growing grains"},
        {"released", "Released by breaking"},
+       {"jumped", "Released by jumps"},
        {"elastic", "Elastic"},
        {"kinetic", "Kinetic"},
        {"damping", "Damping"},
@@ -33,7 +34,7 @@ std::string label_of(const std::string& column) {
 bool in_elastic_constants(const dem::Table& history) { return history.has("boundary_work"); }
 
 std::vector<LedgerTerm> ledger_terms(const dem::Table& history) {
-  constexpr std::array<std::string_view, 4> of_a_sheet{"boundary_work", "growth_work", "elastic", "released"};
+  constexpr std::array<std::string_view, 5> of_a_sheet{"boundary_work", "growth_work", "elastic", "released", "jumped"};
   std::vector<LedgerTerm> terms;
   for (const dem::Column& column : history.columns) {
     const bool energy = in_elastic_constants(history) ? std::ranges::find(of_a_sheet, column.name) != of_a_sheet.end()

@@ -33,6 +33,8 @@ constexpr std::size_t most_hot = 2000, most_patches = 3, most_worst = 6;
 constexpr double finest = 0.02, roughest = 0.4;
 constexpr double slight_load = 1e-4;  // of the largest unbalanced force: what waits for a later step
 constexpr double longest_step = 0.2;  // of a particle radius, in one step
+// A relaxation that has not ended after so many solves, and again after as many more, lets its worst places settle.
+constexpr int first_settling = 60, next_settling = 40;
 
 }  // namespace
 
@@ -487,7 +489,7 @@ struct ConvergedSolver::Impl {
     for (const int slot : near) watched.insert(std::lower_bound(watched.begin(), watched.end(), slot), slot);
     Relaxation result;
     pressed.clear();
-    int slow = 0, patched = 0;
+    int slow = 0, patched = 0, settling = first_settling;
     std::vector<LatticeBox> boxes;  // of the patches since the last step
     double left = 0;                // share of the unbalanced force that the last global step left
     bool fresh = false;
@@ -504,6 +506,14 @@ struct ConvergedSolver::Impl {
         patches.relax(sheet, forces, boxes, 0.1 * settings.tolerance * forces.largest);
         done.patches += static_cast<std::int64_t>(boxes.size());
         if (!boxes.empty()) continue;
+      }
+      if (!settings.refactor_always && result.iterations >= settling) {
+        settling = result.iterations + next_settling;
+        for (const LatticeBox& box : boxes_around(sheet, forces, Cover::worst)) {
+          Patches::settle(sheet, forces, box, 0.1 * settings.tolerance * forces.largest);
+          ++done.settled;
+        }
+        continue;
       }
       if (settings.refactor_always || factor.changes() > most_changes || extra_solves > std::max(least_worth, worth)) {
         factorise(sheet, forces, settings.refactor_always ? Extent::whole : Extent::part);

@@ -5,6 +5,11 @@
 #include <numbers>
 
 namespace dem::sheet {
+namespace {
+
+constexpr int most_halvings = 8;  // of a part of a load step
+
+}  // namespace
 
 Experiment::Experiment(Sheet& sheet, Solver& solver, Loading loading, int threads)
     : sheet_(&sheet),
@@ -23,34 +28,37 @@ void Experiment::relaxed(const Relaxation& r) {
   if (!r.reached) ++e.missed;
 }
 
-// One substep: `share` of the load step. Shares are equal and compose to the step's strain exactly enough: the strain
-// of a step is small, and the strain reported is the one applied.
-void Experiment::apply(double share) {
+// Takes the load from one share of the step to another. Shares compose to the step's strain exactly.
+Experiment::Part Experiment::apply(double from, double to) {
   Sheet& s = *sheet_;
   const auto n = static_cast<std::size_t>(s.particles());
-  const std::vector<double> fx = forces_.x, fy = forces_.y, x = s.x, y = s.y, tension = forces_.tension,
-                            radius = s.radius;
+  const std::vector<double> fx = forces_.x, fy = forces_.y, x = s.x, y = s.y, radius = s.radius;
+  const std::vector<double> tension = loading_.kind == LoadingKind::growth ? forces_.tension : std::vector<double>();
+  const double elastic = elastic_energy(s, forces_);
+  const auto grown = [&](double rate) { return (1 + rate * to) / (1 + rate * from); };
   if (loading_.kind == LoadingKind::growth) {
-    for (std::size_t i = 0; i < n; ++i) {
-      s.radius[i] *= 1 + share * loading_.grows[i];
-    }
+    for (std::size_t i = 0; i < n; ++i) s.radius[i] *= grown(loading_.grows[i]);
   } else {
-    const double e = share * loading_.step;
-    const double sx = loading_.kind == LoadingKind::extension     ? 1 + e
-                      : loading_.kind == LoadingKind::compression ? 1 - e
-                                                                  : 1 / (1 - e);
-    const double sy = loading_.kind == LoadingKind::pure_shear ? 1 - e : 1.0;
+    const double shorter = grown(-loading_.step);
+    const double sx = loading_.kind == LoadingKind::extension     ? grown(loading_.step)
+                      : loading_.kind == LoadingKind::compression ? shorter
+                                                                  : 1 / shorter;
+    const double sy = loading_.kind == LoadingKind::pure_shear ? shorter : 1.0;
     const double cx = 0.5, cy = 0.5 * (start_y_.front() + start_y_.back());
     for (std::size_t i = 0; i < n; ++i) {
       s.x[i] = cx + (s.x[i] - cx) * sx;
       s.y[i] = cy + (s.y[i] - cy) * sy;
     }
   }
-  relaxed(solver_->relax(s, forces_, {}));
-  double boundary = 0, growth = 0;
+  Part part;
+  part.relaxation = solver_->relax(s, forces_, {});
+  const auto add = [&](double& work, double before, double after, double way) {
+    work -= 0.5 * (before + after) * way;
+    part.error += 0.5 * std::fabs((after - before) * way);
+  };
   for (std::size_t i = 0; i < n; ++i) {
-    if (s.fixed[i] & 1) boundary -= 0.5 * (fx[i] + forces_.x[i]) * (s.x[i] - x[i]);
-    if (s.fixed[i] & 2) boundary -= 0.5 * (fy[i] + forces_.y[i]) * (s.y[i] - y[i]);
+    if (s.fixed[i] & 1) add(part.boundary, fx[i], forces_.x[i], s.x[i] - x[i]);
+    if (s.fixed[i] & 2) add(part.boundary, fy[i], forces_.y[i], s.y[i] - y[i]);
   }
   if (loading_.kind == LoadingKind::growth) {
     for (int slot = 0; slot < s.slots(); ++slot) {
@@ -58,17 +66,49 @@ void Experiment::apply(double share) {
       if (s.stiffness[k] <= 0) continue;
       const auto i = static_cast<std::size_t>(s.first(slot)), j = static_cast<std::size_t>(s.second(slot));
       const double dr = (s.radius[i] - radius[i]) + (s.radius[j] - radius[j]);
-      if (dr != 0) growth -= 0.5 * (tension[k] + forces_.tension[k]) * dr;
+      if (dr != 0) add(part.growth, tension[k], forces_.tension[k], dr);
     }
   }
-  state_.boundary_work += boundary;
-  state_.growth_work += growth;
+  part.lost = part.boundary + part.growth - (elastic_energy(s, forces_) - elastic);
+  return part;
 }
 
-void Experiment::load_step() {
-  ++state_.step;
-  const int parts = state_.breaks.empty() ? 1 : std::max(1, loading_.substeps);
-  for (int k = 0; k < parts; ++k) apply(1.0 / parts);
+void Experiment::load_part() {
+  Sheet& s = *sheet_;
+  const bool halves = loading_.work_tolerance > 0 && !state_.breaks.empty();
+  if (state_.left == 0) {
+    ++state_.step;
+    state_.size = std::int64_t{1} << most_halvings;
+    state_.whole = state_.left = state_.size * (state_.breaks.empty() ? 1 : std::max(1, loading_.substeps));
+  }
+  const auto share = [&](std::int64_t left) {
+    return static_cast<double>(state_.whole - left) / static_cast<double>(state_.whole);
+  };
+  const std::vector<double> x = s.x, y = s.y, radius = s.radius;
+  Part part = apply(share(state_.left), share(state_.left - state_.size));
+  const double work = std::fabs(state_.boundary_work + state_.growth_work + part.boundary + part.growth);
+  const double allowed = loading_.work_tolerance * work;
+  while (halves && state_.size > 1 && (std::fabs(part.lost) > allowed || !part.relaxation.reached)) {
+    state_.size /= 2;
+    s.x = x, s.y = y, s.radius = radius;
+    compute_forces(s, forces_, threads_);
+    part = apply(share(state_.left), share(state_.left - state_.size));
+  }
+  relaxed(part.relaxation);
+  state_.boundary_work += part.boundary;
+  state_.growth_work += part.growth;
+  if (halves && part.relaxation.reached && part.lost > std::max(allowed, part.error)) {
+    ++state_.jumps;
+    state_.jumped += part.lost;
+  }
+  state_.left -= state_.size;
+  const bool easy = std::fabs(part.lost) < 0.1 * allowed || state_.size == 1;  // after a jump as before it
+  const auto next = 2 * state_.size;
+  if (easy && next <= (std::int64_t{1} << most_halvings) && state_.left % next == 0) state_.size = next;
+  if (state_.left == 0) loaded();
+}
+
+void Experiment::loaded() {
   state_.energy_loaded = elastic_energy(*sheet_, forces_);
   const WallStress wall = wall_stress(*sheet_, forces_);
   state_.peak_xx = wall.xx;
@@ -120,6 +160,7 @@ void Experiment::close_step() {
   sample.peak_yy = state_.peak_yy;
   sample.elastic = elastic;
   sample.released = state_.released;
+  sample.jumped = state_.jumped;
   sample.boundary_work = state_.boundary_work;
   sample.growth_work = state_.growth_work;
   sample.breaks = static_cast<int>(state_.breaks.size());
@@ -131,7 +172,7 @@ void Experiment::close_step() {
 bool Experiment::advance() {
   if (state_.finished) return false;
   if (!state_.breaking) {
-    load_step();
+    load_part();
   } else if (!break_one()) {
     close_step();
   }
@@ -148,7 +189,7 @@ double Experiment::energy_residual() const {
   if (state_.samples.empty()) return 0;
   const Sample& last = state_.samples.back();
   const double work = last.boundary_work + last.growth_work;
-  return work == 0 ? 0 : std::fabs(work - last.elastic - last.released) / std::fabs(work);
+  return work == 0 ? 0 : std::fabs(work - last.elastic - last.released - last.jumped) / std::fabs(work);
 }
 
 ExperimentState Experiment::snapshot() const {

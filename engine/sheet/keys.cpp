@@ -56,6 +56,8 @@ std::vector<Key> declare() {
       number("loading.stop_share", 0, 1, "0.0",
              "ends the run at the break by which the differential stress falls below this share of its peak; 0: never"),
       whole("loading.substeps", 1, 1000, "4", "parts of a load step once springs are broken, for the work done"),
+      number("loading.work_tolerance", 0, 1, "3e-6",
+             "converged: a part whose energies disagree by more than this share of all work is halved; 0: never"),
       Key{"loading.snapshots", reals, "", 0, 10, {}, "[]", "strains at which fields are kept; the end is always kept"},
       Key{"solvers", texts, "", -inf, inf, {"converged", "as_published"}, "[\"converged\"]", "a case for each"},
       number("solver.tolerance", 1e-13, 1e-2, "1e-8", "converged: largest unbalanced over largest spring force"),
@@ -140,6 +142,7 @@ Settings read_settings(const Scenario& s) {
   }
   if (s.texts("solvers").empty()) throw s.error("solvers", "no solver is named", "write [\"converged\"]");
   r.solver = s.texts("solvers").front();
+  if (r.solver == "converged") r.loading.work_tolerance = s.real("loading.work_tolerance");
   r.converged.tolerance = s.real("solver.tolerance");
   r.published.relaxation = s.real("published.relaxation");
   r.published.stop = s.real("published.stop");

@@ -14,7 +14,7 @@
 namespace dem::sheet {
 namespace {
 
-constexpr std::string_view version = "sheet 8";
+constexpr std::string_view version = "sheet 9";
 
 std::string words(double value) {
   std::string text = fmt::format("{:g}", value);
@@ -139,7 +139,7 @@ class Run {
     const SolverWork& before = kept_.work;
     w.relaxations += before.relaxations, w.solves += before.solves, w.patches += before.patches;
     w.factorisations += before.factorisations, w.changes += before.changes, w.searches += before.searches;
-    w.negative_pivots += before.negative_pivots;
+    w.negative_pivots += before.negative_pivots, w.settled += before.settled;
     return w;
   }
 
@@ -158,7 +158,7 @@ class Run {
 
   void observe() {
     const ExperimentState& state = experiment_->state();
-    if (!state.breaking && kept_.next_snapshot < settings_.snapshots.size() &&
+    if (experiment_->between_steps() && kept_.next_snapshot < settings_.snapshots.size() &&
         experiment_->strain() >= settings_.snapshots[kept_.next_snapshot] * (1 - 1e-9)) {
       take();
       while (kept_.next_snapshot < settings_.snapshots.size() &&
@@ -167,7 +167,11 @@ class Run {
       }
     }
     const WallStress wall = wall_stress(experiment_->sheet(), experiment_->forces());
-    const double done = (state.step - (state.breaking ? 0.5 : 0.0)) / std::max(1, settings_.loading.steps);
+    const double still =  // of the load step: half of it is loading
+        state.breaking   ? 0.5
+        : state.left > 0 ? 0.5 + 0.5 * static_cast<double>(state.left) / static_cast<double>(state.whole)
+                         : 0.0;
+    const double done = (state.step - still) / std::max(1, settings_.loading.steps);
     context_.report({"loading", static_cast<std::int64_t>(state.breaks.size()), std::clamp(done, 0.0, 1.0),
                      experiment_->strain(), 1e10 * (wall.xx - wall.yy)});  // k = 1 stands for 10 GPa
     const bool stop = context_.stopped();

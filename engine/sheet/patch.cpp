@@ -207,4 +207,63 @@ void Patches::relax(Sheet& sheet, Forces& forces, const LatticeBox& box, double 
   }
 }
 
+void Patches::settle(Sheet& sheet, Forces& forces, const LatticeBox& box, double small) {
+  struct Moving {
+    std::size_t particle;
+    double per_mass, vx, vy;
+  };
+  std::vector<Moving> all;
+  for (int r = box.r0; r < box.r1; ++r) {
+    for (int c = box.c0; c < box.c1; ++c) {
+      const int p = r * sheet.lattice.columns + c;
+      double stiffness = 0;  // as mass: no particle swings faster than the square root of two
+      for (int d = 0; d < 6; ++d) {
+        const int j = sheet.lattice.neighbour(p, d);
+        if (j >= 0) stiffness += sheet.stiffness[static_cast<std::size_t>(slot_between(sheet, p, d, j))];
+      }
+      if (stiffness > 0) all.push_back({static_cast<std::size_t>(p), 1 / stiffness, 0, 0});
+    }
+  }
+  constexpr int most_steps = 20000, patience = 5;
+  constexpr double first_step = 0.1, longest = 1.0,
+                   steered = 0.1;  // of time; share of the velocity turned to the force
+  double dt = first_step, steer = steered;
+  int downhill = 0;
+  for (int step = 0; step < most_steps; ++step) {
+    double power = 0, forces_squared = 0, velocity_squared = 0, open = 0;
+    for (const Moving& m : all) {
+      const double fx = (sheet.fixed[m.particle] & 1) ? 0.0 : forces.x[m.particle];
+      const double fy = (sheet.fixed[m.particle] & 2) ? 0.0 : forces.y[m.particle];
+      power += fx * m.vx + fy * m.vy;
+      forces_squared += (fx * fx + fy * fy) * m.per_mass * m.per_mass;
+      velocity_squared += m.vx * m.vx + m.vy * m.vy;
+      open = std::max({open, std::fabs(fx), std::fabs(fy)});
+    }
+    if (open <= small) break;
+    double keep = 0, turn = 0;  // velocity = keep velocity + turn force / mass
+    if (power > 0) {
+      keep = 1 - steer;
+      turn = forces_squared > 0 ? steer * std::sqrt(velocity_squared / forces_squared) : 0;
+      if (++downhill > patience) dt = std::min(1.1 * dt, longest), steer *= 0.99;
+    } else {
+      downhill = 0, dt *= 0.5, steer = steered;
+    }
+    double fastest = 0;
+    for (Moving& m : all) {
+      const double fx = (sheet.fixed[m.particle] & 1) ? 0.0 : forces.x[m.particle];
+      const double fy = (sheet.fixed[m.particle] & 2) ? 0.0 : forces.y[m.particle];
+      m.vx = keep * m.vx + (turn + dt) * m.per_mass * fx;
+      m.vy = keep * m.vy + (turn + dt) * m.per_mass * fy;
+      fastest = std::max({fastest, std::fabs(m.vx), std::fabs(m.vy)});
+    }
+    const double share = std::min(1.0, longest_step * sheet.radius0 / std::max(dt * fastest, 1e-300));
+    for (const Moving& m : all) {
+      sheet.x[m.particle] += share * dt * m.vx;
+      sheet.y[m.particle] += share * dt * m.vy;
+    }
+    update_springs(sheet, forces, box);
+  }
+  sum_up(sheet, forces, box);
+}
+
 }  // namespace dem::sheet

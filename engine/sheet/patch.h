@@ -25,6 +25,12 @@ class Patches {
   /// Same bits for any number of threads.
   void relax(Sheet& sheet, Forces& forces, std::span<const LatticeBox> boxes, double small);
 
+  /// Brings a box to rest by damped dynamics (FIRE: Bitzek et al., Phys. Rev. Lett. 97, 170201, 2006), everything outside
+  /// held, until no particle of it is unbalanced by more than `small`, or not after many steps. Slow beside Newton's
+  /// steps, but downhill wherever it goes: for places where the tangent leads astray, as where a particle swings about
+  /// two springs.
+  static void settle(Sheet& sheet, Forces& forces, const LatticeBox& box, double small);
+
   explicit Patches(int threads) : threads_(threads) {}
 
  private:

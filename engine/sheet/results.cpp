@@ -127,6 +127,7 @@ Table history_table(const Settings& settings, const Specimen& specimen, const Ex
   column("breaks", &Sample::breaks);
   column("elastic", &Sample::elastic);
   column("released", &Sample::released);
+  column("jumped", &Sample::jumped);
   column("boundary_work", &Sample::boundary_work);
   column("growth_work", &Sample::growth_work);
   if (settings.source != "layers") return t;
@@ -214,7 +215,7 @@ void add_checks(Record& record, const Settings& settings, const Experiment& expe
                              "Largest unbalanced force over the largest spring force, after any load step or break."});
     const double residual = experiment.energy_residual();
     record.checks.push_back({"energy_residual", residual, 1e-4, residual <= 1e-4,
-                             "Work that is neither elastic energy nor released by breaking, over the work."});
+                             "Work that is neither elastic energy nor released by breaking or jumps, over the work."});
   } else {
     record.checks.push_back({"stopping_rule", static_cast<double>(e.missed), 0, e.missed == 0,
                              "Relaxations that did not come to the published stop."});
@@ -283,12 +284,16 @@ void add_results(Record& record, const Settings& settings, const Specimen& speci
   put("energy_residual", experiment.energy_residual());
   put("unbalanced_force_dimensionless", experiment.state().equilibrium.worst);
   put("load_steps", experiment.state().step);
+  put("jumps", experiment.state().jumps);
+  if (const Sample* last = experiment.state().samples.empty() ? nullptr : &experiment.state().samples.back())
+    put("jumped_share", last->jumped / (last->boundary_work + last->growth_work));
   put("solver.relaxations", static_cast<double>(work.relaxations));
   put("solver.relaxations_that_stopped_short", static_cast<double>(experiment.state().equilibrium.missed));
   put(settings.solver == "converged" ? "solver.solves" : "solver.sweeps", static_cast<double>(work.solves));
   if (settings.solver == "converged") {
     put("solver.factorisations", static_cast<double>(work.factorisations));
     put("solver.patches", static_cast<double>(work.patches));
+    put("solver.settled", static_cast<double>(work.settled));
   }
   add_checks(record, settings, experiment);
   for (const std::string& note : specimen.map.notes) record.notes.push_back(note);

@@ -22,7 +22,7 @@ struct Relaxation {
 /// What a solver did since it was made.
 struct SolverWork {
   std::int64_t relaxations = 0, solves = 0, patches = 0, factorisations = 0, changes = 0, searches = 0,
-               negative_pivots = 0;
+               negative_pivots = 0, settled = 0;
 };
 
 class Solver {

@@ -164,18 +164,20 @@ FigureContent energy(const StudyResult& study) {
   for (const dem::Record* r : records_of(study)) {
     if (r->text("solver") != "converged") continue;
     const dem::Table& h = r->table("history");
-    const auto strain = h.real("strain"), elastic = h.real("elastic"), released = h.real("released");
+    const auto strain = h.real("strain"), elastic = h.real("elastic"), released = h.real("released"),
+               jumped = h.real("jumped");
     const auto boundary = h.real("boundary_work"), growth = h.real("growth_work");
     render::Chart chart;
     render::Band stored{.label = "elastic", .x = {0}, .low = {0}, .high = {0}, .colour = render::palette(1)};
-    render::Band lost{.label = "released by breaking", .x = {0}, .low = {0}, .high = {0}, .colour = render::palette(0)};
+    render::Band lost{
+        .label = "released by breaking and jumps", .x = {0}, .low = {0}, .high = {0}, .colour = render::palette(0)};
     render::Series work;
     work.label = "work done";
     work.x = work.y = {0};
     for (std::size_t i = 0; i < strain.size(); ++i) {
       const double x = 100 * strain[i], e = 1e6 * elastic[i];
       stored.x.push_back(x), stored.low.push_back(0), stored.high.push_back(e);
-      lost.x.push_back(x), lost.low.push_back(e), lost.high.push_back(e + 1e6 * released[i]);
+      lost.x.push_back(x), lost.low.push_back(e), lost.high.push_back(e + 1e6 * (released[i] + jumped[i]));
       work.x.push_back(x), work.y.push_back(1e6 * (boundary[i] + growth[i]));
     }
     chart.bands = {stored, lost};
@@ -198,7 +200,8 @@ FigureContent energy(const StudyResult& study) {
   }
   if (!said.empty())
     content.finding =
-        "Work of the walls and of growing grains is stored in springs or released by breaking. Unaccounted for, as a "
+        "Work of the walls and of growing grains is stored in springs, or released by breaking and by jumps from one "
+        "equilibrium to another. Unaccounted for, as a "
         "share of the work: " +
         joined(said, "; ") + ".";
   return content;
