@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// No case of the shipped scenarios needs more: the sheet of 500 x 500 particles 1.6 GiB, all others less than 1 GiB.
+/// Cases of shipped studies that have several need less than 1 GiB each; the sheet at high scale, 2.6 GiB, is alone.
 constexpr std::uint64_t memory_of_a_case = std::uint64_t{2} << 30;
 
 /// The record of a case on the disk.
