@@ -5,6 +5,7 @@ dem_test(test_sheet_factor SOURCES physics/test_sheet_factor.cpp LIBRARIES dem_s
 dem_test(test_sheet_elastic SOURCES physics/test_sheet_elastic.cpp LIBRARIES dem_sheet)
 dem_test(test_sheet_breaks SOURCES physics/test_sheet_breaks.cpp physics/sheet_reference.cpp LIBRARIES dem_sheet
          Eigen3::Eigen)
-dem_test(test_sheet_jumps SOURCES physics/test_sheet_jumps.cpp LIBRARIES dem_sheet)
+dem_test(test_sheet_jumps SOURCES physics/test_sheet_jumps.cpp physics/sheet_reference.cpp LIBRARIES dem_sheet
+         Eigen3::Eigen)
 dem_test(test_sheet_breaks_100 SOURCES physics/test_sheet_breaks_100.cpp physics/sheet_reference.cpp
          LIBRARIES dem_sheet Eigen3::Eigen LABELS long)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/sheet/dense.h"
 #include "engine/sheet/stiffness.h"
@@ -224,10 +225,11 @@ void Patches::settle(Sheet& sheet, Forces& forces, const LatticeBox& box, double
       if (stiffness > 0) all.push_back({static_cast<std::size_t>(p), 1 / stiffness, 0, 0});
     }
   }
-  constexpr int most_steps = 20000, patience = 5;
+  constexpr int most_steps = 20000, worth = 1000, patience = 5;
   constexpr double first_step = 0.1, longest = 1.0,
                    steered = 0.1;  // of time; share of the velocity turned to the force
   double dt = first_step, steer = steered;
+  double last = std::numeric_limits<double>::infinity();
   int downhill = 0;
   for (int step = 0; step < most_steps; ++step) {
     double power = 0, forces_squared = 0, velocity_squared = 0, open = 0;
@@ -240,6 +242,10 @@ void Patches::settle(Sheet& sheet, Forces& forces, const LatticeBox& box, double
       open = std::max({open, std::fabs(fx), std::fabs(fy)});
     }
     if (open <= small) break;
+    if (step % worth == 0) {  // as long as it gets anywhere
+      if (open > 0.5 * last) break;
+      last = open;
+    }
     double keep = 0, turn = 0;  // velocity = keep velocity + turn force / mass
     if (power > 0) {
       keep = 1 - steer;

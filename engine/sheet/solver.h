@@ -36,7 +36,7 @@ class Solver {
 
 struct ConvergedSettings {
   double tolerance = 1e-8;       ///< largest unbalanced force over the largest spring force
-  int most_solves = 400;         ///< in one relaxation, before it is given up
+  int most_solves = 2000;        ///< in one relaxation, before it is given up
   bool refactor_always = false;  ///< a plain reference: a new factor for every step of every relaxation
   int threads = 1;
 };

@@ -206,7 +206,7 @@ FigureContent test_setups(const StudyResult& study) {
   with_platens.push_back({steel, "platens"});
   content.panels.push_back(
       {.id = "compression",
-       .caption = "Compression.",
+       .caption = "Pressed by two platens.",
        .alt = "The specimen between two platens.",
        .content = Picture{.scene = std::move(pressed), .label = "compression", .legend = with_platens},
        .per_row = 4});
@@ -221,13 +221,13 @@ FigureContent test_setups(const StudyResult& study) {
   with_grips.push_back({steel, "gripped discs"});
   content.panels.push_back(
       {.id = "direct_tension",
-       .caption = "Direct tension.",
+       .caption = "Pulled by its ends.",
        .alt = fmt::format("Discs of {:.2f} mm at both ends, {} particles, are gripped.", 1e3 * grip, gripped),
        .content = Picture{.scene = std::move(pulled), .label = "direct tension", .legend = with_grips},
        .per_row = 4});
   content.panels.push_back(
       {.id = "section",
-       .caption = "Section along the axis.",
+       .caption = "Cut along its axis.",
        .alt = "The specimen cut along its axis.",
        .content = Picture{.scene = setup_scene(*record, true), .label = "section", .legend = mineral_legend(*record)},
        .per_row = 4});

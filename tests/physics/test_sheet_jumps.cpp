@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "engine/sheet/experiment.h"
+#include "engine/sheet/patch.h"
+#include "sheet_reference.h"
 
 namespace {
 
@@ -144,4 +146,51 @@ TEST_CASE("a run that is cut amid a load step goes on as if it had not been") {
   CHECK(whole.x == parts.x);
   CHECK(whole.jumped == parts.jumped);
   CHECK(whole.boundary_work == parts.boundary_work);
+}
+
+TEST_CASE("damped dynamics finds the equilibrium that Newton's steps find, where springs are broken as well") {
+  Sheet start = reference::polycrystal(40);
+  for (std::size_t slot = 100; slot < 400; slot += 7) start.joined[slot] = 0;
+  for (std::size_t i = 0; i < start.x.size(); ++i) start.x[i] = 0.5 + (start.x[i] - 0.5) * 1.002;
+  Sheet newton = start, dynamics = start;
+  Forces forces;
+  ConvergedSolver solver(newton, {});
+  REQUIRE(solver.relax(newton, forces, {}).reached);
+  compute_forces(dynamics, forces, 1);
+  const double energy = elastic_energy(dynamics, forces), open = forces.unbalanced;
+  Patches::settle(dynamics, forces, {0, dynamics.lattice.columns, 0, dynamics.lattice.rows}, 1e-10 * forces.largest);
+  CHECK(open > 1e-3 * forces.largest);
+  CHECK(forces.unbalanced <= 1e-10 * forces.largest);
+  CHECK(elastic_energy(dynamics, forces) < energy);
+  double apart = 0;
+  for (std::size_t i = 0; i < start.x.size(); ++i)
+    apart = std::max({apart, std::fabs(newton.x[i] - dynamics.x[i]), std::fabs(newton.y[i] - dynamics.y[i])});
+  CHECK(apart <= 1e-5 * start.radius0);
+}
+
+TEST_CASE("damped dynamics in a box leaves what lies outside where it was") {
+  Sheet sheet = reference::polycrystal(40);
+  for (std::size_t i = 0; i < sheet.x.size(); ++i) sheet.x[i] = 0.5 + (sheet.x[i] - 0.5) * 1.002;
+  const Sheet before = sheet;
+  Forces forces;
+  compute_forces(sheet, forces, 1);
+  const LatticeBox box{10, 30, 12, 28};
+  const double small = 1e-9 * forces.largest;
+  Patches::settle(sheet, forces, box, small);
+  double moved = 0;
+  for (int i = 0; i < sheet.particles(); ++i) {
+    const auto p = static_cast<std::size_t>(i);
+    const int c = i % sheet.lattice.columns, r = i / sheet.lattice.columns;
+    if (c >= box.c0 && c < box.c1 && r >= box.r0 && r < box.r1) {
+      moved = std::max(moved, std::fabs(sheet.x[p] - before.x[p]));
+      CHECK(std::max(std::fabs(forces.x[p]), std::fabs(forces.y[p])) <= small);
+    } else {
+      REQUIRE(sheet.x[p] == before.x[p]);
+      REQUIRE(sheet.y[p] == before.y[p]);
+    }
+  }
+  CHECK(moved > 0);
+  Forces again;
+  compute_forces(sheet, again, 1);
+  CHECK(again.x == forces.x);  // forces are those of the result
 }
