@@ -34,7 +34,7 @@ constexpr double finest = 0.02, roughest = 0.4;
 constexpr double slight_load = 1e-4;  // of the largest unbalanced force: what waits for a later step
 constexpr double longest_step = 0.2;  // of a particle radius, in one step
 // A relaxation that has not ended after so many solves, and again after as many more, lets its worst places settle.
-constexpr int first_settling = 60, next_settling = 40;
+constexpr int first_settling = 200, next_settling = 200;
 
 }  // namespace
 
