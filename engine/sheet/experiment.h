@@ -6,8 +6,8 @@
 // Work is the sum over parts of a load step of mean wall force times wall motion (trapezoid), growth work that of
 // -dE/dr dr. A part that this does not account for is done again in halves: contacts open and close on the way, which
 // smaller parts follow; or the sheet jumps (a fragment snaps from one equilibrium to another, as a shallow arch does),
-// which no part is small enough for. What the smallest part loses beyond the largest error of the trapezoid is energy
-// that the jump released.
+// which no part is small enough for. What the smallest part loses, if it is more than the trapezoid can be wrong by and
+// the sheet is in equilibrium, is energy that a jump released.
 #include <functional>
 #include <vector>
 
