@@ -239,8 +239,10 @@ render::Chart strength_bars(const std::vector<Strength>& found, Spread Strength:
   if (ratio) {
     const auto [low, high] = std::ranges::minmax(line.y);
     chart.right.title = "UCS/TS";
-    chart.right.low = std::max(0.0, std::floor(low - (high - low) - 6));
-    chart.right.high = std::ceil(high + 2);
+    // Across the middle of the bars: at their tops it would hide the values printed there.
+    const double span = std::max(8.0, 2.5 * (high - low)), middle = 0.5 * (low + high);
+    chart.right.low = std::max(0.0, std::floor(middle - 0.45 * span));
+    chart.right.high = std::ceil(middle + 0.55 * span);
     chart.series.push_back(line);
   }
   chart.legend = render::Chart::Legend::top_left;
