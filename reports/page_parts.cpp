@@ -84,7 +84,8 @@ std::string shown_result(std::string_view name, double value) {
   if (name.find("strain") != std::string_view::npos && !at_a_strain) {
     return number(100 * value, 3) + " %";
   }
-  if (name.find("share") != std::string_view::npos) return percent(value, 1);
+  if (name.find("share") != std::string_view::npos)
+    return std::abs(value) < 1e-3 ? number(100 * value, 2) + " %" : percent(value, 1);
   return number(value, 3);
 }
 

@@ -260,7 +260,7 @@ void add_results(Record& record, const Settings& settings, const Specimen& speci
   put("grains", static_cast<double>(specimen.map.flynns.size()));
   put("cracks.intra_tension", total - between);
   put("cracks.inter_tension", between);
-  put("inter_grain_share", total > 0 ? between / total : nan);
+  put("inter_grain_crack_share", total > 0 ? between / total : nan);
   put("onset_strain", total > 0 ? breaks.front().step * settings.loading.step : nan);
   add_peak(record, experiment);
   put("final_strain", experiment.strain());

@@ -132,10 +132,9 @@ FigureContent fracture_maps(const StudyResult& study) {
     content.finding = "No spring broke.";
     return content;
   }
-  content.finding =
-      fmt::format("{} springs broke, {} of them between grains; the first at a strain of {}.",
-                  count(r->result("cracks.intra_tension") + r->result("cracks.inter_tension")),
-                  percent(result_or_nan(*r, "inter_grain_share"), 0), strain_words(result_or_nan(*r, "onset_strain")));
+  content.finding = fmt::format("{} springs broke, {} of them between grains; the first at a strain of {}.",
+                                count(r->result("cracks.intra_tension") + r->result("cracks.inter_tension")),
+                                percent(between_share(*r), 0), strain_words(result_or_nan(*r, "onset_strain")));
   return content;
 }
 

@@ -54,6 +54,11 @@ std::string label_of(const dem::Record& record, const StudyResult& study) {
   return label.empty() ? "this run" : label;
 }
 
+double between_share(const dem::Record& record) {
+  const double between = record.result("cracks.inter_tension");
+  return between / (between + record.result("cracks.intra_tension"));
+}
+
 Layout layout_of(const dem::Record& record) {
   const dem::Table& t = record.table("particles");
   Layout l;

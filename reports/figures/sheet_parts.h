@@ -59,6 +59,9 @@ std::string fracture_map(const dem::Record& record, double strain, double width)
 /// Number of cracks up to a strain: {intra, inter}.
 std::array<int, 2> crack_counts(const dem::Record& record, double strain);
 
+/// Share of all cracks that lie between grains; not a number without any.
+double between_share(const dem::Record& record);
+
 /// Names of a record's snapshot tables, and their strains.
 std::vector<std::pair<std::string, double>> snapshots_of(const dem::Record& record);
 

@@ -249,7 +249,7 @@ FigureContent solvers(const StudyResult& study) {
   row("Strain at the first break (%)", "onset_strain", [](double v) { return number(100 * v, 3); });
   row("Peak differential stress (k)", "peak_differential_stress_dimensionless", [](double v) { return number(v, 4); });
   row("Strain at the peak (%)", "strain_at_peak", [](double v) { return number(100 * v, 3); });
-  row("Share between grains", "inter_grain_share", [](double v) { return percent(v, 1); });
+  table.rows.push_back({"Share between grains", percent(between_share(*ours), 1), percent(between_share(*theirs), 1)});
   row("Largest unbalanced over largest spring force", "unbalanced_force_dimensionless",
       [](double v) { return number(v, 2); });
   row("Energy unaccounted for, share of the work", "energy_residual", [](double v) { return number(v, 2); });
