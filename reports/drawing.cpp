@@ -83,6 +83,7 @@ DrawnPanel described(const Panel& panel, const std::string& name) {
   else
     drawn.image = drawn.files.front();
   if (panel.per_row > 0) drawn.per_row = panel.per_row;
+  drawn.whole_width = panel.whole_width;
   return drawn;
 }
 

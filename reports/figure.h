@@ -66,7 +66,8 @@ struct Panel {
   std::string caption;  ///< one sentence
   std::string alt;      ///< what a reader who cannot see it must know, numbers included
   std::variant<render::Chart, Picture, TextTable, std::string> content;  ///< std::string: a complete SVG drawing
-  int per_row = 0;  ///< panels beside each other on the page; 0: chosen from the content
+  int per_row = 0;           ///< panels beside each other on the page; 0: chosen from the content
+  bool whole_width = false;  ///< alone in its row, it is as wide as the printed page
 };
 
 struct FigureContent {

@@ -143,7 +143,8 @@ PageData rows_data(const std::vector<DrawnPanel>& panels, const std::filesystem:
     PageData row;
     // Alone in its figure, half a page wide, it would stand at the side.
     const bool alone = panels.size() == 1 && per_row == 2 && panels.front().table.head.empty();
-    row.set("per_row", alone ? "lone" : std::to_string(per_row));
+    const bool whole = per_row == 1 && members.front().whole_width;
+    row.set("per_row", alone ? "lone" : std::to_string(per_row) + (whole ? " whole" : ""));
     row.set("panels", list);
     row.set("has_shared", shared.caption || shared.legend);
     row.set("has_shared_caption", shared.caption);

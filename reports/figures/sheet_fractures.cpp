@@ -38,7 +38,8 @@ Panel map_panel(const StudyResult& study, const dem::Record& r, double strain, i
                                  count(n[0]), count(n[1])),
           .alt = fmt::format("Map of {} broken springs over the outlines of grains.", count(n[0] + n[1])),
           .content = fracture_map(r, strain, per_row == 1 ? 880 : 430),
-          .per_row = per_row};
+          .per_row = per_row,
+          .whole_width = per_row == 1};
 }
 
 // Angles (radians, 0 ... pi) as a rose over the whole circle, weights equal.
