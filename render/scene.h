@@ -19,6 +19,7 @@ struct Spheres {
   std::vector<double> radius;
   std::vector<Colour> colour;
   double opacity = 1.0;
+  bool cut_edges = true;  ///< a fine dark line around cut faces; false where colours stand for values
 };
 
 /// Flat discs (cracks).

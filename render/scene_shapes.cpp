@@ -167,7 +167,7 @@ void add_cut_faces(Triangles& out, const Scene& scene, const View& view, const S
       if (face.size() < 3) continue;
       out.polygon(to_view(view, face), spheres.colour[i]);
       face.push_back(face.front());
-      if (radius_px > 2)
+      if (spheres.cut_edges && radius_px > 2)
         ribbon(out, view, to_view(view, face), Polyline{{}, shade(spheres.colour[i], 0.72), 0.7, Line::solid}, 0.05);
     }
   }

@@ -54,6 +54,7 @@ std::string label_of(const dem::Record& record, const StudyResult& study) {
   return label.empty() ? "this run" : label;
 }
 
+// From the counts, which records made before the result had its present name hold as well.
 double between_share(const dem::Record& record) {
   const double between = record.result("cracks.inter_tension");
   return between / (between + record.result("cracks.intra_tension"));

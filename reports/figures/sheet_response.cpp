@@ -87,6 +87,7 @@ Panel field_panel(const dem::Record& r, const std::string& table, double strain,
   const double least = signed_values ? 0.0 : size_at(value, 0.01);
   const double low = least > 0.3 * scale && least < scale ? least : 0.0;
   render::Spheres spheres;
+  spheres.cut_edges = false;
   for (std::size_t i = 0; i < value.size(); ++i) {
     spheres.centre.push_back({place[2 * i] + move[2 * i], place[2 * i + 1] + move[2 * i + 1], 0});
     spheres.radius.push_back(1.16 * l.radius);  // wide enough to leave no gap between three

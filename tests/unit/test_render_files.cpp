@@ -1,6 +1,7 @@
 // What pictures are as files: stable bytes, facts inside, sound SVG, bad input refused.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
@@ -187,6 +188,25 @@ TEST_CASE("a scene says its scale: a sphere of known size covers as many pixels"
   for (int column = 0; column < image.width; ++column)
     if (image.rgb[image.at(column, image.height / 2) + 1] < 200) ++covered;
   CHECK(covered * result.metres_per_pixel == doctest::Approx(2e-3).epsilon(0.03));
+}
+
+TEST_CASE("cut faces without edges have no colour but their own: fields match their legend") {
+  render::Scene scene = scene_of_one();
+  scene.spheres[0].colour[0] = {1, 0, 0};
+  scene.camera.direction = {0, 1, 0};
+  scene.cuts.push_back({{0, 0, 0}, {0, -1, 0}});
+  const auto darkest_red = [&](bool edges) {
+    scene.spheres[0].cut_edges = edges;
+    golden::canvas().draw(scene, golden::scratch() / "edges.png", {});
+    const render::Image image = render::read_png(golden::scratch() / "edges.png");
+    int least = 255;
+    for (int row = 0; row < image.height; ++row)
+      for (int column = 0; column < image.width; ++column)
+        least = std::min<int>(least, image.rgb[image.at(column, row)]);
+    return least;
+  };
+  CHECK(darkest_red(false) == 255);  // red on white
+  CHECK(darkest_red(true) < 240);
 }
 
 TEST_CASE("a cut shows the inside: colours of cut faces are those given, and the cut half is gone") {
