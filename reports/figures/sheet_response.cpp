@@ -284,9 +284,10 @@ FigureContent solvers(const StudyResult& study) {
   }
   content.finding = fmt::format(
       "The historical sweep stops when no particle moves by more than 1.4 × 10⁻⁷ of the box in a sweep; the converged "
-      "solver stops at force equilibrium. The order is the same for the first {} breaks; {} of the springs "
-      "that break converged also break as published.",
-      count(static_cast<double>(same)), percent(both, 0));
+      "solver stops at force equilibrium. {}; {} of the springs that break converged also break as published.",
+      same == 0 ? "The very first break differs"
+                : fmt::format("The order is the same up to break {}", count(static_cast<double>(same))),
+      percent(both, 0));
   return content;
 }
 
