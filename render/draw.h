@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "render/chart.h"
-#include "render/scene.h"
+#include "render/chart/chart.h"
+#include "render/scene/scene.h"
 
 namespace render {
 

@@ -1,6 +1,6 @@
 #include <array>
 
-#include "render/chart.h"
+#include "render/chart/chart.h"
 
 namespace render {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "reports/figures/texture_parts.h"
+#include "reports/figures/texture/parts.h"
 
 namespace reports {
 namespace {
@@ -26,7 +26,7 @@ double peak_of(const dem::Record& record) {
 
 }  // namespace
 
-std::optional<Estimate> Envelopes::find(std::string_view name) const {
+std::optional<analysis::Estimate> Envelopes::find(std::string_view name) const {
   if (name == "peak.m" && peak_fit) return peak_fit->m;
   if (name.starts_with("free.") && free_fit) {
     if (name == "free.sigma_c") return free_fit->sigma_c;
@@ -56,15 +56,15 @@ Envelopes envelopes_of(const StudyResult& study, std::string_view mineral) {
     tests += 1;
   }
   found.ucs = tests > 0 ? unconfined / tests : std::nan("");
-  found.peak_fit = fit_peak_m(found.peak.sigma_3, found.peak.sigma_1, found.ucs);
-  found.free_fit = fit_peak_envelope(found.peak.sigma_3, found.peak.sigma_1);
-  found.damage_fit = fit_damage_envelope(found.damage.sigma_3, found.damage.sigma_1, found.ucs);
+  found.peak_fit = analysis::fit_peak_m(found.peak.sigma_3, found.peak.sigma_1, found.ucs);
+  found.free_fit = analysis::fit_peak_envelope(found.peak.sigma_3, found.peak.sigma_1);
+  found.damage_fit = analysis::fit_damage_envelope(found.damage.sigma_3, found.damage.sigma_1, found.ucs);
   for (const auto& [id, name] : {std::pair{"axial_stiffness", "axial stiffness"},
                                  {"strain_0_1_percent", "stress at 0.1 % strain"},
                                  {"one_percent_of_cracks", "1 % of the cracks at the peak"},
                                  {"crack_volumetric_strain", "crack volumetric strain"}}) {
     Initiation one{id, name, points_of(cases, result("crack_initiation_MPa." + std::string(id))), {}};
-    one.fit = fit_line(one.points.sigma_3, one.points.sigma_1);
+    one.fit = analysis::fit_line(one.points.sigma_3, one.points.sigma_1);
     found.initiation.push_back(std::move(one));
   }
   return found;

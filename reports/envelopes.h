@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "reports/figure.h"
-#include "reports/fits.h"
+#include "engine/analysis/fits.h"
 
 namespace reports {
 
@@ -17,20 +17,20 @@ struct Initiation {
   std::string_view id;    ///< of the result: "crack_initiation_MPa.ID"
   std::string_view name;  ///< "axial stiffness"
   StrengthPoints points;
-  std::optional<LineFit> fit;
+  std::optional<analysis::LineFit> fit;
 };
 
 struct Envelopes {
   StrengthPoints peak, damage;
   double ucs = 0;                         ///< mean peak at no pressure, MPa; NaN without such a test
-  std::optional<EnvelopeFit> peak_fit;    ///< s = 1, sigma_c held at UCS as in the paper
-  std::optional<EnvelopeFit> free_fit;    ///< s = 1, sigma_c fitted too
-  std::optional<EnvelopeFit> damage_fit;  ///< sigma_c held at UCS
+  std::optional<analysis::EnvelopeFit> peak_fit;    ///< s = 1, sigma_c held at UCS as in the paper
+  std::optional<analysis::EnvelopeFit> free_fit;    ///< s = 1, sigma_c fitted too
+  std::optional<analysis::EnvelopeFit> damage_fit;  ///< sigma_c held at UCS
   std::vector<Initiation>
       initiation;  ///< axial_stiffness, strain_0_1_percent, one_percent_of_cracks, crack_volumetric_strain
   /// A fitted value by name: "peak.m", "free.sigma_c", "free.m", "damage.m", "damage.s", "initiation.axial_stiffness.intercept",
   /// "initiation.axial_stiffness.slope" and those of the other readings.
-  [[nodiscard]] std::optional<Estimate> find(std::string_view name) const;
+  [[nodiscard]] std::optional<analysis::Estimate> find(std::string_view name) const;
 };
 
 /// Of the compression tests of one mineral, or of the rock (""), that agree in all but confining pressure and seed.

@@ -10,10 +10,14 @@
 
 #include "engine/core/record.h"
 #include "engine/scenario/scenario.h"
-#include "render/chart.h"
-#include "render/scene.h"
+#include "render/chart/chart.h"
+#include "render/scene/scene.h"
+
+namespace dem::analysis {}
 
 namespace reports {
+
+namespace analysis = dem::analysis;
 
 /// A case of the study as figures see it: its record, or why there is none.
 struct CaseResult {
@@ -31,7 +35,7 @@ struct PublishedNumber {
 struct StudyResult {
   const dem::Scenario* scenario = nullptr;
   std::vector<CaseResult> cases;
-  /// What figures show beside ours, of assets/published; nothing for a rock that no paper is about.
+  /// What figures show beside ours, of assets/papers; nothing for a rock that no paper is about.
   std::vector<PublishedNumber> published{};
 
   [[nodiscard]] const dem::Record* find(std::string_view id) const;

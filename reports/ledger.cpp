@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "reports/text.h"
+#include "reports/page/text.h"
 
 namespace reports {
 namespace {

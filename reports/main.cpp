@@ -16,9 +16,9 @@
 #include "engine/study/progress.h"
 #include "engine/study/study.h"
 #include "render/draw.h"
-#include "reports/cli.h"
-#include "reports/drawing.h"
-#include "reports/report.h"
+#include "reports/commands/cli.h"
+#include "reports/output/drawing.h"
+#include "reports/output/report.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 #pragma once
 // The close-packed lattice (Liu et al. 2017) as the study runner sees it.
 #include "engine/lattice/keys.h"
-#include "engine/study/model.h"
+#include "engine/model/model.h"
 
 namespace dem::lattice {
 

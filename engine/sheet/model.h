@@ -9,7 +9,7 @@
 //   history         one row a load step
 //   snapshots/NNNN  displacement (2), mean and differential stress of each particle; attribute strain
 #include "engine/sheet/keys.h"
-#include "engine/study/model.h"
+#include "engine/model/model.h"
 
 namespace dem::sheet {
 

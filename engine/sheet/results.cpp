@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/sheet/measure.h"
+#include "engine/sheet/fractures.h"
 #include "engine/sheet/model.h"
 
 namespace dem::sheet {

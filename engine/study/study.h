@@ -13,7 +13,7 @@
 
 #include "engine/core/record.h"
 #include "engine/scenario/scenario.h"
-#include "engine/study/model.h"
+#include "engine/model/model.h"
 
 namespace dem {
 

@@ -9,8 +9,8 @@
 
 #include "engine/core/archive.h"
 #include "engine/texture/keys.h"
-#include "engine/texture/loading.h"
-#include "engine/texture/packing.h"
+#include "engine/texture/loading/loading.h"
+#include "engine/texture/genesis/packing.h"
 #include "engine/texture/results.h"
 
 namespace dem::texture {

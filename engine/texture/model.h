@@ -1,6 +1,6 @@
 #pragma once
 // The grain texture model (Zhao et al. 2021) as the study runner sees it.
-#include "engine/study/model.h"
+#include "engine/model/model.h"
 #include "engine/texture/setup.h"
 
 namespace dem::texture {

@@ -1,7 +1,7 @@
 #pragma once
 // From a finished test to its record: tables, results and checks as the report reads them.
 #include "engine/core/record.h"
-#include "engine/texture/loading.h"
+#include "engine/texture/loading/loading.h"
 
 namespace dem::texture {
 

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/texture/assembly.h"
-#include "engine/texture/properties.h"
-#include "engine/texture/specimen.h"
+#include "engine/texture/solver/assembly.h"
+#include "engine/texture/laws/properties.h"
+#include "engine/texture/genesis/specimen.h"
 
 namespace dem::texture {
 

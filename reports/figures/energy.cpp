@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "reports/figures/table.h"
-#include "reports/figures/texture_parts.h"
+#include "reports/figures/texture/parts.h"
 #include "reports/ledger.h"
-#include "reports/text.h"
+#include "reports/page/text.h"
 
 namespace reports {
 namespace {

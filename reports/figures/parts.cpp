@@ -8,7 +8,7 @@
 #include <limits>
 #include <numeric>
 
-#include "reports/text.h"
+#include "reports/page/text.h"
 
 namespace reports {
 namespace {
@@ -99,7 +99,7 @@ render::Series means(const std::vector<SeriesCase>& cases, const Measure& value)
   return series;
 }
 
-std::optional<LineFit> trend_of(const std::vector<SeriesCase>& cases, const Measure& value) {
+std::optional<analysis::LineFit> trend_of(const std::vector<SeriesCase>& cases, const Measure& value) {
   std::vector<double> x, y;
   for (const SeriesCase& item : cases) {
     for (const dem::Record* record : item.repeats) {
@@ -109,7 +109,7 @@ std::optional<LineFit> trend_of(const std::vector<SeriesCase>& cases, const Meas
       y.push_back(v);
     }
   }
-  return fit_line(x, y);
+  return analysis::fit_line(x, y);
 }
 
 std::string trend_words(const std::vector<SeriesCase>& cases, const Measure& value, std::string_view unit,
@@ -130,7 +130,7 @@ std::string trend_words(const std::vector<SeriesCase>& cases, const Measure& val
   return fmt::format("{} by {}{} ({})", slope < 0 ? "falls" : "rises", number(std::abs(slope), 2), of, interval);
 }
 
-std::string estimate_text(const Estimate& estimate, int digits, bool in_table) {
+std::string estimate_text(const analysis::Estimate& estimate, int digits, bool in_table) {
   const std::string value = number(estimate.value, digits);
   if (!estimate.has_interval()) return in_table ? value : value + " (no interval from so few points)";
   return fmt::format("{} ({}{} to {})", value, in_table ? "" : "95 % interval ", number(estimate.low, digits),

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "reports/figure.h"
-#include "reports/fits.h"
+#include "engine/analysis/fits.h"
 
 namespace reports {
 
@@ -54,12 +54,12 @@ Spread spread_of(const SeriesCase& item, const Measure& value);
 render::Series means(const std::vector<SeriesCase>& cases, const Measure& value);
 
 /// The straight line through a measure of all cases and repeats against the swept parameter.
-std::optional<LineFit> trend_of(const std::vector<SeriesCase>& cases, const Measure& value);
+std::optional<analysis::LineFit> trend_of(const std::vector<SeriesCase>& cases, const Measure& value);
 /// "rises by 1.2 MPa per degree of dip (95 % interval 0.4 to 2, p = 0.01)", or that scatter hides it; "" with one case.
 std::string trend_words(const std::vector<SeriesCase>& cases, const Measure& value, std::string_view unit,
                         const Axis& axis);
 /// "29.1 (95 % interval 27 to 31.2)", shorter in tables: "29.1 (27 to 31.2)".
-std::string estimate_text(const Estimate& estimate, int digits, bool in_table = false);
+std::string estimate_text(const analysis::Estimate& estimate, int digits, bool in_table = false);
 
 /// A table of the cases of a test that have no record, with the reason; nothing when all have one.
 /// Cases belong to a test when their id starts with its name.

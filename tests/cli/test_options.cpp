@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/core/errors.h"
-#include "reports/cli.h"
+#include "reports/commands/cli.h"
 
 namespace {
 

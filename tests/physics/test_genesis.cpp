@@ -11,7 +11,7 @@
 #include <set>
 #include <thread>
 
-#include "engine/texture/packing.h"
+#include "engine/texture/genesis/packing.h"
 #include "tests/support/granite.h"
 #include "tests/support/near.h"
 

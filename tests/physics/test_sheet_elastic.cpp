@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "engine/sheet/experiment.h"
-#include "engine/sheet/measure.h"
+#include "engine/sheet/fractures.h"
 #include "engine/sheet/patch.h"
 #include "tests/support/near.h"
 

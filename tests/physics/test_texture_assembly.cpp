@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "engine/core/archive.h"
-#include "engine/texture/assembly.h"
+#include "engine/texture/solver/assembly.h"
 #include "tests/support/granite.h"
 #include "tests/support/near.h"
 

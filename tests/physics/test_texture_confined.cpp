@@ -10,9 +10,9 @@
 #include "engine/core/archive.h"
 #include "engine/core/random.h"
 #include "engine/texture/keys.h"
-#include "engine/texture/loading.h"
+#include "engine/texture/loading/loading.h"
 #include "engine/texture/model.h"
-#include "engine/texture/packs.h"
+#include "engine/texture/solver/packs.h"
 #include "tests/support/granite.h"
 #include "tests/support/near.h"
 

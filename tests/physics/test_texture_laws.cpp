@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/texture/flat_joint.h"
-#include "engine/texture/parallel_bond.h"
-#include "engine/texture/properties.h"
+#include "engine/texture/laws/flat_joint.h"
+#include "engine/texture/laws/parallel_bond.h"
+#include "engine/texture/laws/properties.h"
 #include "tests/support/granite.h"
 #include "tests/support/near.h"
 

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "engine/texture/keys.h"
-#include "engine/texture/loading.h"
+#include "engine/texture/loading/loading.h"
 #include "engine/texture/model.h"
 
 using namespace dem::texture;

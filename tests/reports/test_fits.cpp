@@ -4,14 +4,14 @@
 #include <cmath>
 #include <vector>
 
-#include "reports/fits.h"
+#include "engine/analysis/fits.h"
 
 using doctest::Approx;
 
 TEST_CASE("a line through a worked example has its slope, intervals and p-value") {
   // x 1 to 5, y 2 4 5 4 5: means 3 and 4, Sxx 10, Sxy 6; residuals squared 2.4, so the slope's error is sqrt(0.8 / 10) and
   // the intercept's sqrt(0.8 (1/5 + 9/10)); t for three degrees of freedom is 3.182446 (tables of Student's t).
-  const auto fit = reports::fit_line(std::vector{1.0, 2.0, 3.0, 4.0, 5.0}, std::vector{2.0, 4.0, 5.0, 4.0, 5.0});
+  const auto fit = dem::analysis::fit_line(std::vector{1.0, 2.0, 3.0, 4.0, 5.0}, std::vector{2.0, 4.0, 5.0, 4.0, 5.0});
   REQUIRE(fit);
   CHECK(fit->slope.value == Approx(0.6));
   CHECK(fit->intercept.value == Approx(2.2));
@@ -23,20 +23,20 @@ TEST_CASE("a line through a worked example has its slope, intervals and p-value"
 }
 
 TEST_CASE("Student's t agrees with the tables") {
-  CHECK(reports::student_limit(0.05, 1) == Approx(12.7062).epsilon(1e-5));
-  CHECK(reports::student_limit(0.05, 10) == Approx(2.228139).epsilon(1e-6));
-  CHECK(reports::student_limit(0.01, 4) == Approx(4.604095).epsilon(1e-6));
-  CHECK(reports::student_two_sided(0, 5) == Approx(1));
+  CHECK(dem::analysis::student_limit(0.05, 1) == Approx(12.7062).epsilon(1e-5));
+  CHECK(dem::analysis::student_limit(0.05, 10) == Approx(2.228139).epsilon(1e-6));
+  CHECK(dem::analysis::student_limit(0.01, 4) == Approx(4.604095).epsilon(1e-6));
+  CHECK(dem::analysis::student_two_sided(0, 5) == Approx(1));
 }
 
 TEST_CASE("two points give a line without an interval; one place gives none") {
-  const auto fit = reports::fit_line(std::vector{0.0, 2.0}, std::vector{1.0, 5.0});
+  const auto fit = dem::analysis::fit_line(std::vector{0.0, 2.0}, std::vector{1.0, 5.0});
   REQUIRE(fit);
   CHECK(fit->slope.value == Approx(2));
   CHECK_FALSE(fit->slope.has_interval());
   CHECK(std::isnan(fit->p_value));
-  CHECK_FALSE(reports::fit_line(std::vector{3.0, 3.0}, std::vector{1.0, 5.0}));
-  CHECK_FALSE(reports::fit_line(std::vector<double>{}, std::vector<double>{}));
+  CHECK_FALSE(dem::analysis::fit_line(std::vector{3.0, 3.0}, std::vector{1.0, 5.0}));
+  CHECK_FALSE(dem::analysis::fit_line(std::vector<double>{}, std::vector<double>{}));
 }
 
 TEST_CASE("envelopes recover the parameters that made their points") {
@@ -45,20 +45,20 @@ TEST_CASE("envelopes recover the parameters that made their points") {
     CAPTURE(m);
     std::vector<double> peak, damage;
     for (const double p : sigma_3) {
-      peak.push_back(reports::hoek_brown(p, sigma_c, m, 1));
-      damage.push_back(reports::hoek_brown(p, sigma_c, 0.55 * m, 0.6));
+      peak.push_back(dem::analysis::hoek_brown(p, sigma_c, m, 1));
+      damage.push_back(dem::analysis::hoek_brown(p, sigma_c, 0.55 * m, 0.6));
     }
-    const auto intact = reports::fit_peak_envelope(sigma_3, peak);
+    const auto intact = dem::analysis::fit_peak_envelope(sigma_3, peak);
     REQUIRE(intact);
     CHECK(std::abs(intact->sigma_c.value / sigma_c - 1) < 1e-6);
     CHECK(std::abs(intact->m.value / m - 1) < 1e-6);
     CHECK(intact->s.value == 1);
     CHECK(intact->m.high - intact->m.low < 1e-6 * m);
-    const auto damaged = reports::fit_damage_envelope(sigma_3, damage, sigma_c);
+    const auto damaged = dem::analysis::fit_damage_envelope(sigma_3, damage, sigma_c);
     REQUIRE(damaged);
     CHECK(std::abs(damaged->m.value / (0.55 * m) - 1) < 1e-6);
     CHECK(std::abs(damaged->s.value / 0.6 - 1) < 1e-6);
-    CHECK(damaged->at(30) == Approx(reports::hoek_brown(30, sigma_c, 0.55 * m, 0.6)));
+    CHECK(damaged->at(30) == Approx(dem::analysis::hoek_brown(30, sigma_c, 0.55 * m, 0.6)));
   }
 }
 
@@ -66,8 +66,8 @@ TEST_CASE("scattered points leave the envelope inside its interval, and no nearb
   const std::vector<double> sigma_3{0, 5, 10, 20, 40, 60}, scatter{3, -4, 2, 5, -6, 1};
   std::vector<double> sigma_1;
   for (std::size_t i = 0; i < sigma_3.size(); ++i)
-    sigma_1.push_back(reports::hoek_brown(sigma_3[i], 206, 29, 1) + scatter[i]);
-  const auto fit = reports::fit_peak_envelope(sigma_3, sigma_1);
+    sigma_1.push_back(dem::analysis::hoek_brown(sigma_3[i], 206, 29, 1) + scatter[i]);
+  const auto fit = dem::analysis::fit_peak_envelope(sigma_3, sigma_1);
   REQUIRE(fit);
   CHECK(fit->m.low < 29);
   CHECK(fit->m.high > 29);
@@ -76,7 +76,7 @@ TEST_CASE("scattered points leave the envelope inside its interval, and no nearb
   const auto squares = [&](double sigma_c, double m) {
     double sum = 0;
     for (std::size_t i = 0; i < sigma_3.size(); ++i)
-      sum += std::pow(sigma_1[i] - reports::hoek_brown(sigma_3[i], sigma_c, m, 1), 2);
+      sum += std::pow(sigma_1[i] - dem::analysis::hoek_brown(sigma_3[i], sigma_c, m, 1), 2);
     return sum;
   };
   const double best = squares(fit->sigma_c.value, fit->m.value);
@@ -90,38 +90,38 @@ TEST_CASE("m alone is found when sigma_c is known, and no nearby m is closer") {
   const std::vector<double> sigma_3{0, 5, 10, 20, 40, 60}, scatter{3, -4, 2, 5, -6, 1};
   std::vector<double> exact, sigma_1;
   for (std::size_t i = 0; i < sigma_3.size(); ++i) {
-    exact.push_back(reports::hoek_brown(sigma_3[i], 206, 29, 1));
+    exact.push_back(dem::analysis::hoek_brown(sigma_3[i], 206, 29, 1));
     sigma_1.push_back(exact[i] + scatter[i]);
   }
-  const auto known = reports::fit_peak_m(sigma_3, exact, 206);
+  const auto known = dem::analysis::fit_peak_m(sigma_3, exact, 206);
   REQUIRE(known);
   CHECK(known->m.value == Approx(29).epsilon(1e-9));
   CHECK(known->sigma_c.value == 206);
-  const auto fit = reports::fit_peak_m(sigma_3, sigma_1, 206);
+  const auto fit = dem::analysis::fit_peak_m(sigma_3, sigma_1, 206);
   REQUIRE(fit);
   CHECK(fit->m.low < 29);
   CHECK(fit->m.high > 29);
   const auto squares = [&](double m) {
     double sum = 0;
     for (std::size_t i = 0; i < sigma_3.size(); ++i)
-      sum += std::pow(sigma_1[i] - reports::hoek_brown(sigma_3[i], 206, m, 1), 2);
+      sum += std::pow(sigma_1[i] - dem::analysis::hoek_brown(sigma_3[i], 206, m, 1), 2);
     return sum;
   };
   for (const double step : {-0.05, 0.05}) CHECK(squares(fit->m.value + step) > squares(fit->m.value));
   // A point without pressure lies on every envelope with its own sigma_c: two points leave nothing to judge m by.
-  const auto one = reports::fit_peak_m(std::vector{0.0, 20.0}, std::vector{206.0, 400.0}, 206);
+  const auto one = dem::analysis::fit_peak_m(std::vector{0.0, 20.0}, std::vector{206.0, 400.0}, 206);
   REQUIRE(one);
   CHECK_FALSE(one->m.has_interval());
-  CHECK_FALSE(reports::fit_peak_m(sigma_3, sigma_1, std::nan("")));
-  CHECK_FALSE(reports::fit_peak_m(std::vector{10.0}, std::vector{200.0}, 206));
+  CHECK_FALSE(dem::analysis::fit_peak_m(sigma_3, sigma_1, std::nan("")));
+  CHECK_FALSE(dem::analysis::fit_peak_m(std::vector{10.0}, std::vector{200.0}, 206));
 }
 
 TEST_CASE("what cannot be fitted is not") {
-  CHECK_FALSE(reports::fit_peak_envelope(std::vector{10.0, 10.0}, std::vector{200.0, 210.0}));
-  CHECK_FALSE(reports::fit_peak_envelope(std::vector{0.0, 10.0}, std::vector{200.0, std::nan("")}));
-  CHECK_FALSE(reports::fit_damage_envelope(std::vector{0.0, 10.0}, std::vector{100.0, 150.0}, 0));
+  CHECK_FALSE(dem::analysis::fit_peak_envelope(std::vector{10.0, 10.0}, std::vector{200.0, 210.0}));
+  CHECK_FALSE(dem::analysis::fit_peak_envelope(std::vector{0.0, 10.0}, std::vector{200.0, std::nan("")}));
+  CHECK_FALSE(dem::analysis::fit_damage_envelope(std::vector{0.0, 10.0}, std::vector{100.0, 150.0}, 0));
   const auto two =
-      reports::fit_peak_envelope(std::vector{0.0, 20.0}, std::vector{206.0, reports::hoek_brown(20, 206, 29, 1)});
+      dem::analysis::fit_peak_envelope(std::vector{0.0, 20.0}, std::vector{206.0, dem::analysis::hoek_brown(20, 206, 29, 1)});
   REQUIRE(two);
   CHECK(two->m.value == Approx(29));
   CHECK_FALSE(two->m.has_interval());

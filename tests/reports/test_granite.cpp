@@ -9,10 +9,10 @@
 
 #include "reports/envelopes.h"
 #include "reports/figures/table.h"
-#include "reports/figures/texture_parts.h"
-#include "reports/orientation.h"
-#include "reports/published.h"
-#include "reports/summary.h"
+#include "reports/figures/texture/parts.h"
+#include "engine/analysis/orientation.h"
+#include "reports/published/published.h"
+#include "reports/output/summary.h"
 #include "tests/reports/synthetic.h"
 #include "tests/support/scratch.h"
 
@@ -53,8 +53,8 @@ struct Made {
     if (seed > 1) id += "_seed_" + std::to_string(static_cast<int>(seed));
     auto& results = add(id, "compression", pressure, 0, mineral, seed).results;
     results.emplace_back(pressure > 0 ? "confined_strength_MPa" : "ucs_MPa",
-                         reports::hoek_brown(pressure, 206, 29, 1) + more);
-    results.emplace_back("crack_damage_MPa", reports::hoek_brown(pressure, 206, 16, 0.6) + more);
+                         dem::analysis::hoek_brown(pressure, 206, 29, 1) + more);
+    results.emplace_back("crack_damage_MPa", dem::analysis::hoek_brown(pressure, 206, 16, 0.6) + more);
     results.emplace_back("crack_initiation_MPa.axial_stiffness", 71.1 + 1.1 * pressure);
     results.emplace_back("residual_over_peak", 0.2 + 0.01 * pressure);
     if (pressure > 0) results.emplace_back("servo_error", 0.004);
@@ -171,7 +171,7 @@ TEST_CASE("verdicts read stresses after the peak and directions of cracks from t
     cracks.add("mode", "", std::vector<std::int32_t>{0});
     set_table(made.records.back(), cracks);
   }
-  const auto rows = reports::compare(made.study(), std::filesystem::path(DEM_SOURCE_DIR) / "assets/published").rows;
+  const auto rows = reports::compare(made.study(), std::filesystem::path(DEM_SOURCE_DIR) / "assets/papers").rows;
   const auto row = [&](const std::string& id) {
     const auto found = std::ranges::find(rows, id, &reports::Comparison::id);
     REQUIRE(found != rows.end());
@@ -205,7 +205,7 @@ TEST_CASE("figures show what the paper states beside ours, and nothing for anoth
   CHECK_FALSE(has(labels(progressive_failure(study)), "published"));
   CHECK(curves() == 2);  // points and our fit
 
-  study.published = reports::published_numbers(study, std::filesystem::path(DEM_SOURCE_DIR) / "assets/published");
+  study.published = reports::published_numbers(study, std::filesystem::path(DEM_SOURCE_DIR) / "assets/papers");
   CHECK(has(labels(confinement_envelopes(study)), "published fits"));
   CHECK(has(labels(confinement_envelopes(study)), "Martin’s laboratory peak"));
   CHECK(has(labels(confinement_envelopes(study)), "laboratories’ σci, Eq. 12"));
@@ -263,7 +263,7 @@ TEST_CASE("repeats give means, error bars and trends over all seeds") {
 
 TEST_CASE("published numbers of the granite are compared with fits, means and trends") {
   const auto rows_of = [](const reports::StudyResult& study) {
-    return reports::compare(study, std::filesystem::path(DEM_SOURCE_DIR) / "assets/published").rows;
+    return reports::compare(study, std::filesystem::path(DEM_SOURCE_DIR) / "assets/papers").rows;
   };
   const auto row = [](const std::vector<reports::Comparison>& rows, const std::string& id) {
     const auto found = std::ranges::find(rows, id, &reports::Comparison::id);
@@ -298,7 +298,7 @@ TEST_CASE("each scenario of the granite has its published numbers, with unlike i
   for (const char* name : {"ldb_uniaxial", "ldb_confinement", "ldb_dip_angle", "ldb_minerals"}) {
     CAPTURE(name);
     const Made made(name);
-    const auto rows = reports::compare(made.study(), std::filesystem::path(DEM_SOURCE_DIR) / "assets/published").rows;
+    const auto rows = reports::compare(made.study(), std::filesystem::path(DEM_SOURCE_DIR) / "assets/papers").rows;
     CHECK(rows.size() >= 10);
     std::vector<std::string> ids;
     for (const auto& row : rows) {
@@ -315,14 +315,14 @@ TEST_CASE("directions of cracks are weighted by area and told apart by mode") {
   cracks.add("normal", "1", std::vector<double>{1, 0, 0, 0, 0, -1, 0, std::sqrt(0.5), std::sqrt(0.5)}, 3);
   cracks.add("area", "m^2", std::vector<double>{2, 1, 1});
   cracks.add("mode", "", std::vector<std::int32_t>{0, 0, 1});
-  const auto all = reports::orientation_of(cracks, 0);
+  const auto all = dem::analysis::orientation_of(cracks, 0);
   CHECK(all.mean == Approx((2 * 0.0 + 90 + 45) / 4));
   CHECK(all.along == Approx(0.5));
   CHECK(all.share.front() == Approx(0.5));
   CHECK(all.share.back() == Approx(0.25));
-  CHECK(reports::orientation_of(cracks, 0, 1).mean == Approx(45));
-  CHECK(reports::orientation_of(cracks, 1, 0).mean == Approx(90));
-  CHECK(std::isnan(reports::orientation_of(cracks, 3).mean));
+  CHECK(dem::analysis::orientation_of(cracks, 0, 1).mean == Approx(45));
+  CHECK(dem::analysis::orientation_of(cracks, 1, 0).mean == Approx(90));
+  CHECK(std::isnan(dem::analysis::orientation_of(cracks, 3).mean));
 }
 
 TEST_CASE("a band of cracks is found at its angle to the axis") {
@@ -346,13 +346,13 @@ TEST_CASE("a band of cracks is found at its angle to the axis") {
         crack.insert(crack.end(), {particle[3 * i], particle[3 * i + 1], particle[3 * i + 2]});
     }
     const std::vector<double> area(crack.size() / 3, 1.0);
-    const auto band = reports::densest_band(crack, area, particle, volume, 0.35);
+    const auto band = dem::analysis::densest_band(crack, area, particle, volume, 0.35);
     CHECK(std::abs(band.inclination - angle) <= 5);
     CHECK(band.cracks > 0.8);
     CHECK(band.concentration() > 2);
     std::vector<std::int32_t> contact(area.size());
     std::iota(contact.begin(), contact.end(), 0);
-    const double at_random = reports::excess_at_random(contact, area, particle, volume, 0.35, 3);
+    const double at_random = dem::analysis::excess_at_random(contact, area, particle, volume, 0.35, 3);
     CHECK(at_random > 0);
     CHECK(at_random < 0.2 * band.excess());
   }

@@ -11,8 +11,8 @@
 
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
-#include "reports/pdf.h"
-#include "reports/report.h"
+#include "reports/output/pdf.h"
+#include "reports/output/report.h"
 #include "tests/reports/synthetic.h"
 #include "tests/support/scratch.h"
 
@@ -240,7 +240,7 @@ TEST_CASE("an error in WeasyPrint's log fails the run and leaves no PDF") {
   const std::string html =
       "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>x</title></head><body>"
       "<img alt=\"gone\" src=\"gone.png\"></body></html>";
-  CHECK_THROWS_WITH_AS(reports::print_pdf(html, assets / "print.css", scratch / "x.pdf"), doctest::Contains("ERROR"),
+  CHECK_THROWS_WITH_AS(reports::print_pdf(html, assets / "page" / "print.css", scratch / "x.pdf"), doctest::Contains("ERROR"),
                        dem::EnvironmentError);
   CHECK_FALSE(std::filesystem::exists(scratch / "x.pdf"));
 }
@@ -259,7 +259,7 @@ TEST_CASE("the PDF's bytes do not hang on the folder that the report is in") {
   for (const std::string folder : {"one", "another/below"}) {
     std::filesystem::create_directories(scratch / folder / "figures");
     std::filesystem::copy(picture, scratch / folder / "figures/drop.png");
-    reports::print_pdf(html, assets / "print.css", scratch / folder / "x.pdf");
+    reports::print_pdf(html, assets / "page" / "print.css", scratch / folder / "x.pdf");
     bytes.push_back(dem::read_file(scratch / folder / "x.pdf"));
   }
   CHECK(bytes[0].size() > 2000);

@@ -5,14 +5,14 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "reports/csv.h"
-#include "reports/drawing.h"
+#include "reports/output/csv.h"
+#include "reports/output/drawing.h"
 #include "reports/ledger.h"
-#include "reports/page.h"
-#include "reports/page_parts.h"
-#include "reports/pdf.h"
-#include "reports/summary.h"
-#include "reports/text.h"
+#include "reports/page/page.h"
+#include "reports/page/page_parts.h"
+#include "reports/output/pdf.h"
+#include "reports/output/summary.h"
+#include "reports/page/text.h"
 #include "tests/reports/synthetic.h"
 #include "tests/support/scratch.h"
 
@@ -119,7 +119,7 @@ TEST_CASE("summary.json has the promised structure") {
   study.fail("direct_tension_ar_3", "the solution blew up");
   study.record("compression_ar_1").results.emplace_back("hoek_brown_m", std::nan(""));
   const auto result = study.result();
-  const auto comparisons = reports::compare(result, std::filesystem::path(DEM_SOURCE_DIR) / "assets/published");
+  const auto comparisons = reports::compare(result, std::filesystem::path(DEM_SOURCE_DIR) / "assets/papers");
   const std::string text = reports::summary_json(result, comparisons, {});
   const auto json = nlohmann::json::parse(text);
   CHECK(json.at("scenario") == "ldb_aspect_ratio");

@@ -8,7 +8,7 @@
 #include "engine/core/files.h"
 #include "engine/lattice/keys.h"
 #include "reports/figures/table.h"
-#include "reports/published.h"
+#include "reports/published/published.h"
 #include "tests/reports/synthetic.h"
 #include "tests/support/scratch.h"
 
@@ -39,9 +39,9 @@ struct Fixture {
   }
 
   [[nodiscard]] std::vector<Comparison> compared(const std::string& numbers, const reports::StudyResult& study) const {
-    dem::write_file(scratch / "published/paper.json",
+    dem::write_file(scratch / "papers/p/published.json",
                     R"({"model": "grain_texture", "paper": "P", "scale": "paper", "numbers": [)" + numbers + "]}");
-    return reports::compare(study, scratch / "published").rows;
+    return reports::compare(study, scratch / "papers").rows;
   }
   [[nodiscard]] Comparison one(const std::string& rest) const { return one(rest, study()); }
   [[nodiscard]] Comparison one(const std::string& rest, const reports::StudyResult& study) const {
@@ -185,7 +185,7 @@ TEST_CASE_FIXTURE(Fixture, "numbers of other scenarios and optional ones without
 }
 
 TEST_CASE_FIXTURE(Fixture, "a broken file of published numbers is named") {
-  CHECK_THROWS_WITH_AS(compared("{", study()), doctest::Contains("paper.json"), dem::EnvironmentError);
+  CHECK_THROWS_WITH_AS(compared("{", study()), doctest::Contains("papers/p/published.json"), dem::EnvironmentError);
   CHECK_THROWS_WITH_AS(one(R"("kind": "guess")"), doctest::Contains("published"), dem::EnvironmentError);
 }
 
@@ -193,7 +193,7 @@ TEST_CASE("the published numbers of the grain texture model can be read and have
   const test::Scratch scratch;
   const dem::Scenario scenario = synthetic::scenario(scratch.path());
   const reports::StudyResult empty{&scenario, {}};
-  const auto found = reports::compare(empty, std::filesystem::path(DEM_SOURCE_DIR) / "assets/published");
+  const auto found = reports::compare(empty, std::filesystem::path(DEM_SOURCE_DIR) / "assets/papers");
   CHECK(found.rows.size() >= 25);
   CHECK(found.scale == "paper");
   std::vector<std::string> ids;
@@ -209,15 +209,15 @@ TEST_CASE("the published numbers of the grain texture model can be read and have
 
 TEST_CASE_FIXTURE(Fixture, "figures are given every value and range of the paper, compared or quoted") {
   dem::write_file(
-      scratch / "published/paper.json",
+      scratch / "papers/p/published.json",
       R"({"model": "grain_texture", "paper": "P", "numbers": [)"
       R"({"id": "a", "scenarios": ["another"], "source": "S", "quantity": "Q", "unit": "MPa", )" +
           value("206.8", R"({"relative": 0.1})") +
           R"(}, {"id": "t", "scenarios": [], "source": "S", "quantity": "Q", "kind": "trend", "published": "rises"}], )"
           R"("quoted": [{"id": "b", "source": "T", "quantity": "R", "published": [2, 3]}]})");
-  dem::write_file(scratch / "published/other.json", R"({"model": "sheet", "paper": "P", "numbers": [{"broken": 1}]})");
+  dem::write_file(scratch / "papers/q/published.json", R"({"model": "sheet", "paper": "P", "numbers": [{"broken": 1}]})");
   auto known = study();
-  known.published = reports::published_numbers(known, scratch / "published");
+  known.published = reports::published_numbers(known, scratch / "papers");
   REQUIRE(known.published.size() == 2);
   CHECK(known.published_value("a") == 206.8);
   CHECK(known.published[0].unit == "MPa");
@@ -240,7 +240,7 @@ TEST_CASE("the lattice's figures take what the paper states from its file") {
   record.tables.push_back({.name = "particles", .attributes = {}, .columns = {}});
   reports::StudyResult study{&scenario, {{"compression_n_4", &record, ""}}};
   CHECK(reports::lattice::parameters(study).finding.empty());
-  study.published = reports::published_numbers(study, DEM_SOURCE_DIR "/assets/published");
+  study.published = reports::published_numbers(study, DEM_SOURCE_DIR "/assets/papers");
   CHECK(reports::lattice::parameters(study).finding ==
         "The largest deviation from the six published parameters is 2.000 %.");
   for (const char* id :

@@ -8,8 +8,8 @@
 
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
-#include "reports/report.h"
-#include "reports/workers.h"
+#include "reports/output/report.h"
+#include "reports/output/workers.h"
 #include "tests/reports/synthetic.h"
 #include "tests/support/scratch.h"
 

@@ -7,12 +7,12 @@
 #include <set>
 
 #include "engine/core/random.h"
-#include "render/culling.h"
-#include "render/curve.h"
-#include "render/dashes.h"
-#include "render/occupancy.h"
-#include "render/sheet.h"
-#include "render/ticks.h"
+#include "render/scene/culling.h"
+#include "render/chart/curve.h"
+#include "render/chart/dashes.h"
+#include "render/scene/occupancy.h"
+#include "render/paper/paper.h"
+#include "render/chart/ticks.h"
 
 using render::Axis;
 using render::Range;

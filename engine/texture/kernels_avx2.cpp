@@ -1,4 +1,0 @@
-#define DEM_TARGET avx2
-#define DEM_NAME "avx2"
-#define DEM_LANES Lanes4
-#include "engine/texture/kernels.inc"

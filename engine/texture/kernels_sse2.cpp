@@ -1,4 +1,0 @@
-#define DEM_TARGET sse2
-#define DEM_NAME "sse2"
-#define DEM_LANES Lanes4
-#include "engine/texture/kernels.inc"

@@ -1,0 +1,131 @@
+#include "engine/texture/loading/characteristics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dem::texture {
+namespace {
+
+double total(const HistoryRow& row) { return row.cracks[0] + row.cracks[1] + row.cracks[2] + row.cracks[3]; }
+
+// First row at or above `stress`, on the way up.
+std::size_t first_above(const std::vector<HistoryRow>& h, std::size_t peak, double stress) {
+  std::size_t i = 0;
+  while (i < peak && h[i].axial_stress < stress) ++i;
+  return i;
+}
+
+}  // namespace
+
+StrainGauge::StrainGauge(const std::vector<Vec3>& position, double height, double length) : start_(position) {
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    if (std::abs(position[i][2] - height / 2) <= length / 2) inside_.push_back(static_cast<std::int32_t>(i));
+  }
+}
+
+StrainGauge::Strains StrainGauge::read(const std::vector<Row8>& poses) const {
+  std::array<double, 3> slope{};
+  const auto n = static_cast<double>(inside_.size());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double mean_x = 0, mean_u = 0;
+    for (const std::int32_t p : inside_) {
+      const auto i = static_cast<std::size_t>(p);
+      mean_x += start_[i][axis];
+      mean_u += poses[i].v[axis] - start_[i][axis];
+    }
+    mean_x /= n;
+    mean_u /= n;
+    double xx = 0, xu = 0;
+    for (const std::int32_t p : inside_) {
+      const auto i = static_cast<std::size_t>(p);
+      const double x = start_[i][axis] - mean_x;
+      xx += x * x;
+      xu += x * (poses[i].v[axis] - start_[i][axis] - mean_u);
+    }
+    slope[axis] = xx > 0 ? xu / xx : 0;
+  }
+  return {slope[2], 0.5 * (slope[0] + slope[1])};
+}
+
+double axial_stiffness(const std::vector<HistoryRow>& h, std::size_t row) {
+  const double strain = h[row].axial_strain - h.front().axial_strain;
+  constexpr double least = 5e-5;  // below, the quotient shows the start of the platens and not the rock
+  return strain > least ? (h[row].axial_stress - h.front().axial_stress) / strain
+                        : std::numeric_limits<double>::quiet_NaN();
+}
+
+Characteristics characterise(const std::vector<HistoryRow>& h, double departure, bool compression,
+                             double confining_pressure) {
+  Characteristics c;
+  if (h.size() < 3) return c;
+  for (std::size_t i = 0; i < h.size(); ++i) {
+    if (h[i].axial_stress > h[c.peak].axial_stress) c.peak = i;
+  }
+  const auto at_share = [&](double share) {
+    return first_above(h, c.peak, confining_pressure + share * (h[c.peak].axial_stress - confining_pressure));
+  };
+  const std::size_t low = at_share(0.10), middle = at_share(0.25), high = at_share(0.30), half = at_share(0.50);
+  if (high > low + 1) {
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+    for (std::size_t i = low; i <= high; ++i) {
+      n += 1;
+      x += h[i].axial_strain;
+      y += h[i].axial_stress;
+    }
+    x /= n;
+    y /= n;
+    for (std::size_t i = low; i <= high; ++i) {
+      xx += (h[i].axial_strain - x) * (h[i].axial_strain - x);
+      xy += (h[i].axial_strain - x) * (h[i].axial_stress - y);
+    }
+    if (xx > 0) c.young_modulus = xy / xx;
+  }
+  if (!compression) return c;
+  if (half > 0 && h[half].axial_strain > 0) c.poisson_ratio = -h[half].lateral_strain / h[half].axial_strain;
+  if (middle > low) {
+    double plateau = 0;
+    for (std::size_t i = low; i <= middle; ++i)
+      plateau += axial_stiffness(h, i) / static_cast<double>(middle - low + 1);
+    for (std::size_t i = middle; i <= c.peak; ++i) {
+      if (std::abs(axial_stiffness(h, i) / plateau - 1) > departure) {
+        c.initiation_stiffness = i;
+        break;
+      }
+    }
+  }
+  for (std::size_t i = 1; i <= c.peak; ++i) {
+    if (h[i - 1].axial_strain < 1e-3 && h[i].axial_strain >= 1e-3) {
+      const double f = (1e-3 - h[i - 1].axial_strain) / (h[i].axial_strain - h[i - 1].axial_strain);
+      c.stress_at_strain = h[i - 1].axial_stress + f * (h[i].axial_stress - h[i - 1].axial_stress);
+      break;
+    }
+  }
+  const double one_percent = 0.01 * total(h[c.peak]);
+  for (std::size_t i = 0; one_percent > 0 && i <= c.peak; ++i) {
+    if (total(h[i]) >= one_percent) {
+      c.initiation_cracks = i;
+      break;
+    }
+  }
+  std::size_t damage = 0;
+  for (std::size_t i = 0; i <= c.peak; ++i) {
+    if (h[i].volumetric_strain() > h[damage].volumetric_strain()) damage = i;
+  }
+  if (damage > 0) c.damage = damage;
+  if (c.young_modulus && c.poisson_ratio && low > 0) {
+    // Elastic part with the early lateral ratio: the crack volumetric strain is what is left.
+    const double early = -h[high].lateral_strain / h[high].axial_strain;
+    const auto crack_volume = [&](std::size_t i) {
+      return h[i].volumetric_strain() - (1 - 2 * early) / *c.young_modulus * (h[i].axial_stress - confining_pressure);
+    };
+    std::size_t turn = low;
+    for (std::size_t i = low; i <= c.peak; ++i) {
+      if (crack_volume(i) > crack_volume(turn)) turn = i;
+    }
+    c.initiation_volume = turn;
+  }
+  return c;
+}
+
+}  // namespace dem::texture

@@ -1,0 +1,91 @@
+#pragma once
+// A chart in the making: scales, the plot area, and where its data lies in it. Used by chart_*.cpp only.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/scene/occupancy.h"
+#include "render/paper/paper.h"
+#include "render/chart/ticks.h"
+
+namespace render {
+
+constexpr Colour ink{0.12, 0.12, 0.12};
+constexpr double tick_length = 5, minor_tick_length = 3, label_gap = 5;
+
+/// One line of a legend.
+struct LegendEntry {
+  std::string label;
+  Colour colour;
+  bool swatch = false;  ///< a filled square (bars, bands) instead of a line with its marker
+  double opacity = 1;
+  Line line = Line::none;
+  double width = 1;
+  Marker marker = Marker::none;
+};
+
+struct Panel {
+  const Chart* chart = nullptr;
+  Rect area, plot;            ///< all that the chart may use; the frame of its data
+  double text = 12;           ///< size of tick labels (px)
+  double category_text = 12;  ///< of names under bars
+  Scale x, left, right;
+  bool has_right = false;
+  Chart::Legend legend = Chart::Legend::none;
+  Rect legend_box;
+  std::vector<std::vector<std::string>> categories;  ///< names under bars, in lines
+
+  [[nodiscard]] double title_size() const { return text * 1.08; }
+  [[nodiscard]] const Scale& scale(Side side) const { return side == Side::left ? left : right; }
+  [[nodiscard]] double across(double value) const { return plot.left + x.share(value) * plot.width(); }
+  [[nodiscard]] double down(double value, Side side) const {
+    return plot.bottom - scale(side).share(value) * plot.height();
+  }
+  [[nodiscard]] Vec2 at(double vx, double vy, Side side) const { return {across(vx), down(vy, side)}; }
+};
+
+/// A bar in its place.
+struct Bar {
+  Rect rect;
+  std::size_t series = 0, category = 0;
+  double value = 0, error = 0;
+};
+
+/// Scales and places for a chart in `area`, its legend as asked or `legend` instead.
+Panel lay_out(const Chart& chart, const Rect& area, double text, Chart::Legend legend);
+
+std::vector<LegendEntry> legend_entries(const Chart& chart);
+Vec2 legend_size(const Panel& panel, const std::vector<LegendEntry>& entries, double max_width);
+
+std::vector<Bar> bars_of(const Panel& panel);
+
+/// The printed value of a bar; it stands upright where bars are too narrow for it.
+struct ValueText {
+  std::string text;
+  double size = 0, width = 0;  ///< px
+  bool upward = false;
+};
+ValueText value_text(const Panel& panel, const Bar& bar);
+/// The line of a series inside the plot area, simplified; pieces where values are missing or outside.
+std::vector<std::vector<Vec2>> curve_of(const Panel& panel, const Series& series);
+/// Places of the series' markers; long lines carry few of them.
+std::vector<Vec2> markers_of(const Panel& panel, const Series& series);
+/// What the data covers.
+Occupancy data_occupancy(const Panel& panel, const Sheet& sheet);
+
+void draw_axes(Sheet& sheet, const Panel& panel);
+void draw_data(Sheet& sheet, const Panel& panel);    ///< bands, bars and lines
+void draw_points(Sheet& sheet, const Panel& panel);  ///< markers and error bars: over the frame
+void draw_legend(Sheet& sheet, const Panel& panel);
+void draw_marks(Sheet& sheet, const Panel& panel, Occupancy& taken);
+
+/// The whole chart.
+void draw_chart(Sheet& sheet, const Chart& chart, const Rect& area, double text = 12);
+
+/// Chart::width x height with the chart on it; throws std::invalid_argument when columns of the chart differ in length.
+Sheet sheet_of(const Chart& chart);
+
+/// The ranges of the data, as facts for a picture's metadata: {"Extent x", "0 ... 0.31"}.
+Provenance extents(const Chart& chart);
+
+}  // namespace render

@@ -1,0 +1,49 @@
+// The default context: Mesa's software renderer, into memory, without a display. See gl_glue.cpp for the other half.
+#include <GL/osmesa.h>
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "engine/core/errors.h"
+#include "render/offscreen/offscreen_window.h"
+
+namespace render {
+
+struct Offscreen::Context {
+  OSMesaContext handle = nullptr;
+  std::vector<unsigned char> pixels;  // OSMesa's own frame; VTK draws into frame buffers of its own
+  Context() {
+    prepare_environment();
+    const int wanted[] = {OSMESA_FORMAT,
+                          OSMESA_RGBA,
+                          OSMESA_DEPTH_BITS,
+                          24,
+                          OSMESA_STENCIL_BITS,
+                          8,
+                          OSMESA_PROFILE,
+                          OSMESA_CORE_PROFILE,
+                          OSMESA_CONTEXT_MAJOR_VERSION,
+                          3,
+                          OSMESA_CONTEXT_MINOR_VERSION,
+                          3,
+                          0};
+    handle = OSMesaCreateContextAttribs(wanted, nullptr);
+    constexpr int side = 64;
+    pixels.resize(4 * side * side);
+    if (handle == nullptr || OSMesaMakeCurrent(handle, pixels.data(), GL_UNSIGNED_BYTE, side, side) == GL_FALSE)
+      throw dem::EnvironmentError(
+          "no off-screen OpenGL 3.3 context from OSMesa; pictures need the package libosmesa6 (Mesa's software "
+          "renderer)");
+  }
+  ~Context() {
+    if (handle != nullptr) OSMesaDestroyContext(handle);
+  }
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+};
+
+Offscreen::Offscreen() : context_(std::make_unique<Context>()) { adopt_current_context(*window_); }
+Offscreen::~Offscreen() { window_->Finalize(); }
+
+}  // namespace render

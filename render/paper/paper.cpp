@@ -1,0 +1,123 @@
+#include "render/paper/paper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/paper/text.h"
+
+namespace render {
+
+void Sheet::polygon(std::vector<Vec2> convex, const Colour& colour, double opacity) {
+  if (convex.size() >= 3) items_.emplace_back(Fill{std::move(convex), {}, colour, opacity});
+}
+
+void Sheet::rectangle(const Rect& r, const Colour& colour, double opacity) {
+  polygon({{r.left, r.top}, {r.right, r.top}, {r.right, r.bottom}, {r.left, r.bottom}}, colour, opacity);
+}
+
+void Sheet::band(std::vector<Vec2> upper, std::vector<Vec2> lower, const Colour& colour, double opacity) {
+  if (upper.size() >= 2 && upper.size() == lower.size())
+    items_.emplace_back(Fill{std::move(upper), std::move(lower), colour, opacity});
+}
+
+void Sheet::line(std::vector<Vec2> points, const Stroke& stroke) {
+  if (points.size() >= 2 && stroke.line != Line::none) items_.emplace_back(Path{std::move(points), stroke});
+}
+
+void Sheet::frame(const Rect& r, const Stroke& stroke) {
+  // One more step along the first side closes the corner.
+  line({{r.left, r.top}, {r.right, r.top}, {r.right, r.bottom}, {r.left, r.bottom}, {r.left, r.top}, {r.right, r.top}},
+       stroke);
+}
+
+void Sheet::marker(Marker marker, const Vec2& at, double size, const Colour& colour) {
+  const double r = size / 2;
+  const auto corners = [&](int count, double turn, double radius) {
+    std::vector<Vec2> points;
+    for (int i = 0; i < count; ++i) {
+      const double angle = turn + 2 * std::numbers::pi * i / count;
+      points.push_back({at.x + radius * std::cos(angle), at.y + radius * std::sin(angle)});
+    }
+    return points;
+  };
+  constexpr double quarter = std::numbers::pi / 4;
+  switch (marker) {
+    case Marker::none:
+      break;
+    case Marker::circle:
+      polygon(corners(20, 0, r), colour);
+      break;
+    case Marker::square:
+      polygon(corners(4, quarter, 1.25 * r), colour);
+      break;
+    case Marker::diamond:
+      polygon(corners(4, 0, 1.25 * r), colour);
+      break;
+    case Marker::triangle:
+      polygon(corners(3, -2 * quarter, 1.25 * r), colour);
+      break;
+    case Marker::cross: {
+      const Stroke stroke{colour, std::max(1.2, size / 5), Line::solid};
+      line({{at.x - r, at.y - r}, {at.x + r, at.y + r}}, stroke);
+      line({{at.x - r, at.y + r}, {at.x + r, at.y - r}}, stroke);
+      break;
+    }
+  }
+}
+
+void Sheet::text(const std::string& text, const Vec2& at, const TextStyle& style) {
+  const std::vector<Piece> pieces = pieces_of(text);
+  if (pieces.size() == 1 && pieces[0].shift == 0) {  // the reader's own font may differ: keep the anchor
+    items_.emplace_back(Run{at, pieces[0].text, style});
+    return;
+  }
+  const double width = text_width(text, style.size, style.bold);
+  double along = style.anchor == Anchor::start ? 0 : style.anchor == Anchor::middle ? -width / 2 : -width;
+  for (const Piece& piece : pieces) {
+    TextStyle own = style;
+    own.anchor = Anchor::start;
+    own.size = style.size * piece.scale;
+    const double rise = piece.shift * style.size;
+    const Vec2 place = style.upward ? Vec2{at.x - rise, at.y - along} : Vec2{at.x + along, at.y - rise};
+    items_.emplace_back(Run{place, piece.text, own});
+    along += run_width(piece.text, own.size, own.bold);
+  }
+}
+
+std::vector<std::vector<Vec2>> clip(const std::vector<Vec2>& line, const Rect& window) {
+  std::vector<std::vector<Vec2>> pieces;
+  bool open = false;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Vec2 &a = line[i], &b = line[i + 1];
+    if (!std::isfinite(a.x) || !std::isfinite(a.y) || !std::isfinite(b.x) || !std::isfinite(b.y)) {
+      open = false;
+      continue;
+    }
+    double from = 0, to = 1;
+    const auto limit = [&](double step, double room) {  // keeps t with step * t <= room
+      if (step == 0) {
+        if (room < 0) to = -1;
+      } else if (step > 0) {
+        to = std::min(to, room / step);
+      } else {
+        from = std::max(from, room / step);
+      }
+    };
+    const double dx = b.x - a.x, dy = b.y - a.y;
+    limit(dx, window.right - a.x);
+    limit(-dx, a.x - window.left);
+    limit(dy, window.bottom - a.y);
+    limit(-dy, a.y - window.top);
+    if (from > to) {
+      open = false;
+      continue;
+    }
+    if (!open || from > 0) pieces.push_back({{a.x + from * dx, a.y + from * dy}});
+    pieces.back().push_back({a.x + to * dx, a.y + to * dy});
+    open = to >= 1;
+  }
+  return pieces;
+}
+
+}  // namespace render

@@ -1,0 +1,10 @@
+#pragma once
+// A sheet as pixels.
+#include "render/offscreen/offscreen.h"
+#include "render/paper/paper.h"
+
+namespace render {
+
+Image to_image(Offscreen& offscreen, const Sheet& sheet, int scale);  ///< at `scale` times its size
+
+}  // namespace render

@@ -1,0 +1,81 @@
+#pragma once
+// Scenes: a specimen drawn as spheres, discs (cracks) and lines (axes), in one camera view. Lengths in metres.
+// Text, legends and scale bars are not part of the raster: the page composes them (render::SceneResult tells the
+// scale).
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/chart/chart.h"
+
+namespace render {
+
+using Point = std::array<double, 3>;
+
+/// Spheres with a colour each. Drawn as impostors: one frame of 36,528 takes well under a second.
+struct Spheres {
+  std::vector<Point> centre;
+  std::vector<double> radius;
+  std::vector<Colour> colour;
+  double opacity = 1.0;
+  bool cut_edges = true;  ///< a fine dark line around cut faces; false where colours stand for values
+};
+
+/// Flat discs (cracks).
+struct Discs {
+  std::vector<Point> centre, normal;
+  std::vector<double> radius;
+  std::vector<Colour> colour;
+  bool over = false;  ///< drawn over everything and never cut: cracks near a section, on its face
+};
+
+struct Polyline {
+  std::vector<Point> points;
+  Colour colour;
+  double width = 2;  ///< px
+  Line line = Line::solid;
+};
+
+/// A surface outline of the specimen: a transparent cylinder or box.
+struct Outline {
+  enum class Shape { none, cylinder, box } shape = Shape::none;
+  Point low{}, high{};  ///< bounds; a cylinder stands along z
+  Colour colour{0.6, 0.6, 0.6};
+  double opacity = 0.15;
+};
+
+struct Camera {
+  Point direction{0, -1, 0};  ///< from the eye into the scene
+  Point up{0, 0, 1};
+  bool parallel = true;  ///< parallel projection: lengths can be read with the scale bar
+  double zoom = 1.0;
+  /// Bounds to fit into the picture, so that several pictures share one scale; absent: all that is drawn.
+  std::optional<std::array<Point, 2>> frame;
+};
+
+struct Scene {
+  std::vector<Spheres> spheres;
+  std::vector<Discs> discs;
+  std::vector<Polyline> lines;
+  Outline outline;
+  Camera camera;
+  /// Cuts everything with (p - point) . normal > 0 away; spheres show their cut faces flat.
+  struct Cut {
+    Point point{}, normal{0, 1, 0};
+  };
+  std::vector<Cut> cuts;
+  int width = 800, height = 1200;  ///< px
+  Colour background{1, 1, 1};
+};
+
+/// What the page must know about a drawn scene.
+struct SceneResult {
+  double metres_per_pixel = 0;  ///< parallel projection only
+  int width = 0, height = 0;
+  Point centre{};       ///< the point in the middle of the picture
+  Point right{}, up{};  ///< unit vectors along the picture's sides: a point p is drawn (p - centre) . right /
+                        ///< metres_per_pixel to the right of the middle
+};
+
+}  // namespace render

@@ -1,0 +1,370 @@
+// Stress-strain curve and its marks, energy and heat of the strength tests (Liu et al. 2017, Figs. 5, 6a-d).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/figures/lattice/parts.h"
+#include "reports/figures/table.h"
+#include "reports/page/text.h"
+
+namespace reports::lattice {
+namespace {
+
+constexpr int width = 720, height = 440;
+
+// Time of the sample of largest stress.
+double peak_time(const dem::Table& h) {
+  const auto stress = h.real("axial_stress");
+  return h.real("time")[static_cast<std::size_t>(std::ranges::max_element(stress) - stress.begin())];
+}
+
+double value_at(const dem::Table& h, const std::vector<std::string>& columns, double time) {
+  const auto t = h.real("time");
+  const auto at = static_cast<std::size_t>(std::min<std::ptrdiff_t>(std::ranges::lower_bound(t, time) - t.begin(),
+                                                                    static_cast<std::ptrdiff_t>(t.size()) - 1));
+  double sum = 0;
+  for (const std::string& c : columns) sum += h.real(c)[at];
+  return sum;
+}
+
+struct Unit {
+  double factor;
+  std::string name;
+};
+Unit unit_of(const dem::Table& h, const std::vector<std::string>& columns) {
+  double most = 0;
+  const render::Series s = whole(h, "time", 1, columns, 1);
+  for (const double y : s.y) most = std::max(most, std::abs(y));
+  const auto [factor, name] = energy_unit(most);
+  return {factor, name};
+}
+
+struct CompressionMarks {
+  double a1, a2, a3, c1, c2;
+};
+CompressionMarks marks_of(const dem::Record& r) {
+  const dem::Table& h = r.table("history");
+  CompressionMarks m{};
+  m.a1 = r.result("a1_time_s");
+  m.a2 = peak_time(h);
+  m.a3 = time_of_least(h, elastic_columns(), m.a2);
+  m.c1 = r.result("sliding_start_s");
+  m.c2 = m.c1 + r.result("sliding_duration_s");
+  return m;
+}
+
+struct TensionMarks {
+  double d1, d2, b2;
+};
+TensionMarks tension_marks(const dem::Record& r) {
+  const dem::Table& h = r.table("history");
+  TensionMarks m{};
+  m.d1 = r.result("failure_time_s");
+  m.d2 = m.d1 + r.result("crack_duration_s");
+  const render::Series kinetic = window(h, "kinetic", m.d1, 1e9, 0, 1);
+  const double most = kinetic.y.empty() ? 0 : *std::ranges::max_element(kinetic.y);
+  m.b2 = m.d2;
+  for (std::size_t i = kinetic.y.size(); i-- > 0;) {
+    if (kinetic.y[i] > 0.01 * most) {
+      m.b2 = 1e-6 * kinetic.x[i];
+      break;
+    }
+  }
+  return m;
+}
+
+// Elastic energy, kinetic energy, heat and work in a window of time, in microseconds since its zero.
+std::vector<render::Series> energies(const dem::Table& h, double from, double to, double zero, double factor) {
+  return {styled(window_sum(h, elastic_columns(), from, to, zero, factor), "elastic", 5),
+          styled(window(h, "kinetic", from, to, zero, factor), "kinetic", 1, render::Line::dash_dot),
+          styled(window_sum(h, heat_columns(), from, to, zero, factor), "heat", 2),
+          styled(window(h, "work", from, to, zero, factor), "work", 0, render::Line::dash)};
+}
+
+render::Chart heats(const dem::Record& r, double from, double to, double zero,
+                    const std::vector<std::pair<double, std::string>>& marks) {
+  const dem::Table& h = r.table("history");
+  const Unit unit = unit_of(h, heat_columns());
+  render::Chart chart;
+  chart.x.title = "Time since " + marks.front().second + " (µs)";
+  chart.left.title = "Heat (" + unit.name + ")";
+  chart.series = {
+      styled(window_sum(h, heat_columns(), from, to, zero, unit.factor), "total", 0, render::Line::dash),
+      styled(window(h, "viscous_heat", from, to, zero, unit.factor), "viscous", 5),
+      styled(window_sum(h, {"breaking_heat_normal", "breaking_heat_shear"}, from, to, zero, unit.factor), "breaking",
+             6),
+      styled(window(h, "breaking_heat_normal", from, to, zero, unit.factor), "breaking, normal", 3,
+             render::Line::dash_dot),
+      styled(window(h, "breaking_heat_shear", from, to, zero, unit.factor), "breaking, shear", 1,
+             render::Line::dash_dot),
+      styled(window(h, "frictional_heat", from, to, zero, unit.factor), "frictional", 2, render::Line::dot)};
+  for (const auto& [time, label] : marks) chart.marks.push_back(upright(1e6 * (time - zero), label));
+  chart.legend = render::Chart::Legend::outside_right;
+  chart.width = width;
+  chart.height = 380;
+  return chart;
+}
+
+}  // namespace
+
+FigureContent stress_strain(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "Stress rises in a straight line to A₁, where opening cracks form and stress drops; it climbs again to the "
+      "strength A₂, where the "
+      "block fails by sliding. Some bonds at the boundary fail before C_open is reached (inset).";
+  if (auto missing = missing_cases(study, "compression")) content.panels.push_back(*missing);
+  const dem::Record* r = main_record(study, "compression");
+  if (!r) return content;
+  const dem::Table& h = r->table("history");
+  const CompressionMarks m = marks_of(*r);
+  render::Chart chart;
+  chart.x.title = "Axial strain (10⁻³)";
+  chart.left.title = "Axial stress (MPa)";
+  chart.left.low = 0;
+  render::Series curve = styled(whole(h, "axial_strain", 1e3, {"axial_stress"}, 1e-6), "", 5);
+  chart.series = {curve};
+  const auto mark = [&](double time, const std::string& label) {
+    chart.marks.push_back(
+        dot(1e3 * value_at(h, {"axial_strain"}, time), 1e-6 * value_at(h, {"axial_stress"}, time), label));
+  };
+  mark(m.a1, "A₁");
+  mark(m.a2, "A₂");
+  chart.marks.push_back({.kind = render::Mark::Kind::horizontal,
+                         .x = 0,
+                         .y = r->result("opening_stress_theory_MPa"),
+                         .label = "C_open (Eq. 8)",
+                         .colour = {0.4, 0.4, 0.4}});
+  render::Chart inset;
+  inset.x.title = "Strain (10⁻³)";
+  inset.left.title = "MPa";
+  const double far = 2.2 * 1e3 * r->result("a1_strain");
+  render::Series part = curve;
+  part.x.clear();
+  part.y.clear();
+  for (std::size_t i = 0; i < curve.x.size() && curve.x[i] < far; ++i) {
+    part.x.push_back(curve.x[i]);
+    part.y.push_back(curve.y[i]);
+  }
+  inset.series = {part};
+  inset.marks.push_back(dot(1e3 * r->result("a1_strain"), r->result("a1_MPa"), "A₁"));
+  inset.legend = render::Chart::Legend::none;
+  chart.insets.push_back({{inset}, {0.60, 0.13, 0.36, 0.28}});
+  chart.legend = render::Chart::Legend::none;
+  chart.width = width;
+  chart.height = 480;
+  content.panels.push_back(
+      {.id = "",
+       .caption = count(r->result("particles")) + " elements in compression; the inset enlarges the first opening.",
+       .alt = fmt::format("A1 at {} MPa falls to {}; the peak A2 is {} MPa at a strain of {}.",
+                          number(r->result("a1_MPa"), 3), number(r->result("a1_after_MPa"), 3),
+                          number(r->result("ucs_MPa"), 4), number(r->result("peak_strain"), 3)),
+       .content = chart,
+       .per_row = 1});
+  content.finding = fmt::format(
+      "Bonds open first at {} MPa, at the boundary; the largest opening, A₁, is at {} MPa and lets stress drop to {} "
+      "MPa. "
+      "Bonds slide first at {} MPa; the strength A₂ is {} MPa at a strain of {}.",
+      number(r->result("first_opening_MPa"), 3), number(r->result("a1_MPa"), 3), number(r->result("a1_after_MPa"), 3),
+      number(r->result("first_sliding_MPa"), 4), number(r->result("ucs_MPa"), 4), number(r->result("peak_strain"), 3));
+  return content;
+}
+
+FigureContent energy_compression(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "Elastic energy follows the stress, drops a little at A₁ and falls almost to zero between A₂ and A₃; mechanical "
+      "energy and heat "
+      "together always equal the work. Failure takes about 10⁻⁴ s; kinetic energy (inset) stays far below the elastic.";
+  const dem::Record* r = main_record(study, "compression");
+  if (!r) return content;
+  const dem::Table& h = r->table("history");
+  const CompressionMarks m = marks_of(*r);
+  const Unit unit = unit_of(h, {"work"});
+  render::Chart chart;
+  chart.x.title = "Time (µs)";
+  chart.left.title = "Energy (" + unit.name + ")";
+  chart.series = energies(h, 0, 1e9, 0, unit.factor);
+  for (const auto& [time, label] : {std::pair{m.a1, "A₁"}, {m.a2, "A₂"}, {m.a3, "A₃"}}) {
+    chart.marks.push_back(dot(1e6 * time, unit.factor * value_at(h, elastic_columns(), time), label));
+  }
+  render::Chart inset;
+  const double from = m.c1 - 1e-5, to = m.a3 + 2e-5;
+  const Unit small = unit_of(h, {"kinetic"});
+  inset.x.title = "Time since C₁ (µs)";
+  inset.left.title = "Kinetic (" + small.name + ")";
+  inset.series = {styled(window(h, "kinetic", from, to, m.c1, small.factor), "", 1)};
+  inset.legend = render::Chart::Legend::none;
+  chart.insets.push_back({{inset}, {0.14, 0.40, 0.40, 0.40}});
+  chart.legend = render::Chart::Legend::below;
+  chart.width = width;
+  chart.height = 500;
+  content.panels.push_back(
+      {.id = "",
+       .caption = "Compression: energy against time; the inset shows the kinetic energy at failure.",
+       .alt = fmt::format("Elastic energy falls from {} to {} {} between A2 and A3.",
+                          number(unit.factor * value_at(h, elastic_columns(), m.a2), 3),
+                          number(unit.factor * value_at(h, elastic_columns(), m.a3), 2), unit.name),
+       .content = chart,
+       .per_row = 1});
+  content.finding = fmt::format(
+      "After A₂ the elastic energy falls to {} % of its value there, in {} µs from C₁; kinetic energy never exceeds {} "
+      "% of it. "
+      "The ledger closes to {} of the work.",
+      number(100 * r->result("elastic_left_share"), 2), number(1e6 * (m.a3 - m.c1), 3),
+      number(100 * r->result("kinetic_share"), 2), number(r->result("energy_residual"), 2));
+  return content;
+}
+
+FigureContent energy_tension(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "The block parts in two at 1.072 × 10⁻² s (B₁): elastic energy becomes breaking heat and kinetic energy, at most "
+      "16.2 % of the total, "
+      "which turns into viscous heat by B₂.";
+  if (auto missing = missing_cases(study, "tension")) content.panels.push_back(*missing);
+  std::vector<std::string> said;
+  for (const dem::Record* r : records_of(study, "tension")) {
+    const dem::Table& h = r->table("history");
+    const TensionMarks m = tension_marks(*r);
+    const Unit unit = unit_of(h, {"work"});
+    render::Chart chart;
+    chart.x.title = "Time (µs)";
+    chart.left.title = "Energy (" + unit.name + ")";
+    chart.series = energies(h, 0, 1e9, 0, unit.factor);
+    chart.left.low = 0;
+    render::Chart inset;
+    inset.left.low = 0;
+    inset.x.title = "Time since B₁ (µs)";
+    inset.left.title = unit.name;
+    const double after = std::max(2.5 * (m.b2 - m.d1), 4e-6);
+    inset.series = energies(h, m.d1 - 0.3 * after, m.d1 + after, m.d1, unit.factor);
+    inset.marks = {upright(0, "B₁"), upright(1e6 * (m.b2 - m.d1), "B₂")};
+    inset.legend = render::Chart::Legend::none;
+    chart.insets.push_back({{inset}, {0.12, 0.42, 0.44, 0.46}});
+    chart.legend = render::Chart::Legend::below;
+    chart.width = width;
+    chart.height = 500;
+    const std::string planes = r->text("planes");
+    content.panels.push_back({.id = planes,
+                              .caption = fmt::format("Tension, planes: {}. The inset shows the failure.", planes),
+                              .alt = fmt::format("The block parts at {} s; kinetic energy reaches {} % of the work.",
+                                                 number(m.d1, 4), number(100 * r->result("kinetic_share"), 3)),
+                              .content = chart,
+                              .per_row = 1});
+    said.push_back(fmt::format("with {} planes it parts at {} s, kinetic share {} %", planes, number(m.d1, 4),
+                               number(100 * r->result("kinetic_share"), 3)));
+  }
+  if (!said.empty()) content.finding = sentence(said);
+  return content;
+}
+
+FigureContent heat_compression(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "At failure in compression (C₁ to C₂) the breaking heat of the normal springs does not change, that of the shear "
+      "springs rises step "
+      "by step; frictional heat goes on after C₂.";
+  const dem::Record* r = main_record(study, "compression");
+  if (!r) return content;
+  const CompressionMarks m = marks_of(*r);
+  const double span = std::max(m.c2 - m.c1, 5e-6);
+  content.panels.push_back(
+      {.id = "",
+       .caption = "Compression: heat at failure.",
+       .alt = fmt::format("From C1 to C2 {} µs pass; {} % of the breaking heat in between is of normal springs.",
+                          number(1e6 * (m.c2 - m.c1), 3), number(100 * r->result("normal_share_of_sliding_heat"), 2)),
+       .content = heats(*r, m.c1 - 0.3 * span, m.c2 + 1.5 * span, m.c1, {{m.c1, "C₁"}, {m.c2, "C₂"}}),
+       .per_row = 1});
+  content.finding = fmt::format(
+      "From C₁ to C₂ {} µs pass. Normal springs have {} % of the breaking heat of that time. {} % of all frictional "
+      "heat comes after C₂; "
+      "{} % of the heat from C₁ to the end is viscous.",
+      number(1e6 * (m.c2 - m.c1), 3), number(100 * r->result("normal_share_of_sliding_heat"), 2),
+      number(100 * r->result("frictional_share_after_sliding"), 3),
+      number(100 * r->result("viscous_share_of_heat"), 3));
+  return content;
+}
+
+FigureContent heat_tension(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "Breaking heat rises from D₁ to D₂, 2.83 × 10⁻⁶ s apart; viscous heat goes on rising after D₂, and its share is "
+      "larger than in "
+      "compression. Frictional heat is always zero.";
+  std::vector<std::string> said;
+  for (const dem::Record* r : records_of(study, "tension")) {
+    const TensionMarks m = tension_marks(*r);
+    const double span = std::max(m.d2 - m.d1, 1e-6);
+    const std::string planes = r->text("planes");
+    content.panels.push_back(
+        {.id = planes,
+         .caption = fmt::format("Tension, planes: {}. Heat at failure.", planes),
+         .alt = fmt::format("Breaking heat rises for {} µs.", number(1e6 * (m.d2 - m.d1), 3)),
+         .content = heats(*r, m.d1 - 0.3 * span, m.d2 + 2.5 * span, m.d1, {{m.d1, "D₁"}, {m.d2, "D₂"}}),
+         .per_row = 1});
+    std::string friction = r->has_result("friction_after_last_opening_s")
+                               ? fmt::format(
+                                     "frictional heat begins {} µs {} the last of them and ends at {} % of the work, "
+                                     "where cracks close again",
+                                     number(1e6 * std::abs(r->result("friction_after_last_opening_s")), 3),
+                                     r->result("friction_after_last_opening_s") < 0 ? "before" : "after",
+                                     number(100 * r->result("frictional_share"), 2))
+                               : std::string("no frictional heat at any time");
+    said.push_back(fmt::format("{} planes: bonds open for {} µs, {} % of the viscous heat comes later; {}", planes,
+                               number(1e6 * (m.d2 - m.d1), 3),
+                               number(100 * r->result("viscous_share_after_parting"), 3), friction));
+  }
+  if (!said.empty()) content.finding = sentence(said);
+  return content;
+}
+
+FigureContent ledger(const StudyResult& study) {
+  FigureContent content;
+  content.statement = "The sum of mechanical energy and heat is always equal to the work of the planes.";
+  render::Chart chart;
+  chart.x.title = "Share of the test’s time (%)";
+  chart.left.title = "|Residual| / work";
+  chart.left.logarithmic = true;
+  double worst = 0;
+  std::size_t colour = 0;
+  for (const std::string_view test : {"compression", "tension"}) {
+    const auto records = records_of(study, test);
+    for (const dem::Record* r : records) {
+      worst = std::max(worst, r->result("energy_residual"));
+      if (colour >= 7) continue;
+      const dem::Table& h = r->table("history");
+      const auto time = h.real("time"), work = h.real("work"), residual = h.real("residual");
+      const double most = *std::ranges::max_element(work);
+      render::Series s;
+      for (std::size_t i = 0; i < time.size(); ++i) {
+        const double ratio = std::abs(residual[i]) / std::max(work[i], 1e-3 * most);
+        if (!(ratio > 0)) continue;
+        s.x.push_back(100 * time[i] / time.back());
+        s.y.push_back(ratio);
+      }
+      if (s.x.empty()) continue;
+      chart.series.push_back(styled(s, r->case_id, colour, colour % 2 ? render::Line::dash : render::Line::solid, 1.2));
+      ++colour;
+    }
+  }
+  if (chart.series.empty()) return content;
+  chart.marks.push_back(
+      {.kind = render::Mark::Kind::horizontal, .x = 0, .y = 1e-3, .label = "limit", .colour = {0.64, 0.15, 0.1}});
+  chart.left.low = 1e-12;
+  chart.left.high = 1e-2;
+  chart.legend = render::Chart::Legend::below;
+  chart.width = width;
+  chart.height = 420;
+  content.panels.push_back(
+      {.id = "",
+       .caption = "Residual of the ledger over the work, taken as at least a thousandth of its largest value.",
+       .alt = "The largest residual of all cases is " + number(worst, 2) + ", the limit 0.001.",
+       .content = chart,
+       .per_row = 1});
+  content.finding = "The largest residual of all cases is " + number(worst, 2) + " of the work; the limit is 10⁻³.";
+  return content;
+}
+
+}  // namespace reports::lattice

@@ -1,0 +1,256 @@
+// The model itself: block and springs (Liu et al. 2017, Fig. 1), the tetrahedral unit (Fig. 2), the sliding distance
+// (Fig. 3) and the parameters (Table 1).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "reports/figures/lattice/parts.h"
+#include "reports/figures/table.h"
+#include "reports/page/text.h"
+
+namespace reports::lattice {
+namespace {
+
+const dem::Record* any_record(const StudyResult& study) {
+  for (const CaseResult& c : study.cases) {
+    if (c.record && c.record->find("particles")) return c.record;
+  }
+  return nullptr;
+}
+
+const dem::Record* largest_record(const StudyResult& study, double most) {
+  const dem::Record* found = nullptr;
+  for (const CaseResult& c : study.cases) {
+    if (!c.record || c.record->result("particles") > most) continue;
+    if (!found || c.record->result("particles") > found->result("particles")) found = c.record;
+  }
+  return found;
+}
+
+Picture block_picture(const dem::Record& record) {
+  const auto position = record.table("particles").real("position");
+  const auto radius = record.table("particles").real("radius");
+  render::Spheres spheres;
+  const double layer = std::sqrt(2.0 / 3) * 2 * radius[0];
+  double top = 0;
+  for (std::size_t i = 0; i < radius.size(); ++i) top = std::max(top, position[3 * i + 2]);
+  for (std::size_t i = 0; i < radius.size(); ++i) {
+    spheres.centre.push_back({position[3 * i], position[3 * i + 1], position[3 * i + 2]});
+    spheres.radius.push_back(radius[i]);
+    const bool end = position[3 * i + 2] < 0.5 * layer || position[3 * i + 2] > top - 0.5 * layer;
+    const bool b = std::lround(position[3 * i + 2] / layer) % 2 == 1;
+    spheres.colour.push_back(end ? render::Colour{0.80, 0.36, 0.20}
+                             : b ? render::Colour{0.93, 0.86, 0.62}
+                                 : render::Colour{0.55, 0.66, 0.75});
+  }
+  Picture picture;
+  picture.scene.spheres = {spheres};
+  picture.scene.camera.direction = {-0.75, 0.55, -0.30};
+  picture.scene.width = 700;
+  picture.scene.height = 700;
+  picture.label = count(record.result("particles")) + " elements";
+  picture.legend = {{{0.55, 0.66, 0.75}, "layers A"},
+                    {{0.93, 0.86, 0.62}, "layers B"},
+                    {{0.80, 0.36, 0.20}, "end layers, at the planes"}};
+  return picture;
+}
+
+constexpr std::string_view svg_head =
+    R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {} {}" width="{}" height="{}" font-family="DejaVu Sans" font-size="15">)";
+
+std::string head(int width, int height) { return fmt::format(fmt::runtime(svg_head), width, height, width, height); }
+
+std::string text(double x, double y, std::string_view words, std::string_view anchor = "middle") {
+  return fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="{}">{}</text>)", x, y, anchor, words);
+}
+// A letter with a subscript that has no Unicode form of its own.
+std::string sub(std::string_view letter, std::string_view below) {
+  return fmt::format(R"({}<tspan dy="4" font-size="11">{}</tspan><tspan dy="-4"> </tspan>)", letter, below);
+}
+std::string circle(double x, double y, double r, std::string_view fill, bool dashed = false) {
+  return fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="{:.1f}" fill="{}" stroke="#333" stroke-width="1.5"{}/>)", x,
+                     y, r, fill, dashed ? R"( stroke-dasharray="6 4")" : "");
+}
+std::string line(double x0, double y0, double x1, double y1, std::string_view colour = "#333", double width = 1.5) {
+  return fmt::format(R"(<line x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}" stroke="{}" stroke-width="{}"/>)", x0, y0,
+                     x1, y1, colour, width);
+}
+// An arrow without markers, which some renderers of SVG draw wrong.
+std::string arrow(double x0, double y0, double x1, double y1, std::string_view colour) {
+  const double dx = x1 - x0, dy = y1 - y0, length = std::hypot(dx, dy), ux = dx / length, uy = dy / length;
+  return line(x0, y0, x1 - 8 * ux, y1 - 8 * uy, colour, 2) +
+         fmt::format(R"(<polygon points="{:.1f},{:.1f} {:.1f},{:.1f} {:.1f},{:.1f}" fill="{}"/>)", x1, y1,
+                     x1 - 10 * ux - 5 * uy, y1 - 10 * uy + 5 * ux, x1 - 10 * ux + 5 * uy, y1 - 10 * uy - 5 * ux,
+                     colour);
+}
+// A zigzag spring from one point to another.
+std::string spring(double x0, double y0, double x1, double y1, std::string_view colour) {
+  const double dx = x1 - x0, dy = y1 - y0, length = std::hypot(dx, dy), nx = -dy / length, ny = dx / length;
+  std::string points = fmt::format("{:.1f},{:.1f} ", x0, y0);
+  constexpr int turns = 8;
+  for (int i = 0; i <= turns; ++i) {
+    const double part = 0.2 + 0.6 * i / turns;
+    const double aside = i == 0 || i == turns ? 0 : (i % 2 ? 8 : -8);
+    points += fmt::format("{:.1f},{:.1f} ", x0 + part * dx + aside * nx, y0 + part * dy + aside * ny);
+  }
+  points += fmt::format("{:.1f},{:.1f}", x1, y1);
+  return fmt::format(R"(<polyline points="{}" fill="none" stroke="{}" stroke-width="2"/>)", points, colour);
+}
+
+std::string springs_drawing() {
+  std::string s = head(600, 250);
+  s += circle(80, 120, 55, "#c9d5de") + circle(230, 120, 55, "#c9d5de") + spring(80, 120, 230, 120, "#0072b2");
+  s += text(155, 45, "Fₙ = Kₙ Xₙ") + text(155, 100, "Kₙ") + text(155, 215, "breaks when Xₙ &gt; " + sub("X", "b"));
+  s += circle(365, 120, 55, "#c9d5de") + circle(475, 120, 55, "#c9d5de") + spring(420, 65, 420, 175, "#d55e00");
+  s += text(420, 45, "Fₛ = Kₛ Xₛ") + text(447, 124, "Kₛ") + arrow(365, 190, 365, 160, "#333") +
+       arrow(475, 50, 475, 80, "#333");
+  s += text(430, 215, "breaks when |Fₛ| &gt; Fₛ₀ − μₚ Fₙ");
+  return s + "</svg>";
+}
+
+std::string unit_drawing() {
+  // The unit seen from the side: element 1 on the three at the plane; bond 1 inclined, bond 2 along the plane.
+  std::string s = head(640, 316);
+  for (const double x0 : {160.0, 480.0}) {
+    const bool tension = x0 < 300;
+    s += line(x0 - 130, 238, x0 + 130, 238, "#555", 3);
+    s += circle(x0 - 52, 190, 48, "#c9d5de") + circle(x0 + 52, 190, 48, "#c9d5de") + circle(x0, 108, 48, "#edd9a3");
+    s += line(x0, 108, x0 + 52, 190, "#0072b2", 3) + line(x0 - 52, 190, x0 + 52, 190, "#d55e00", 3);
+    s += text(x0, 103, "1") + text(x0 - 60, 186, "2") + text(x0 + 62, 186, "3, 4") +
+         text(x0 + 60, 136, "bond 1", "start") + text(x0, 258, "bond 2");
+    s += tension ? arrow(x0, 60, x0, 18, "#333") + text(x0 + 12, 30, sub("F", "z"), "start")
+                 : arrow(x0, 12, x0, 56, "#333") + text(x0 + 12, 30, sub("F", "z"), "start");
+    const double in = tension ? 1 : -1;
+    s += arrow(x0 - 112 - 14 * in, 190, x0 - 112 + 14 * in, 190, "#333") +
+         arrow(x0 + 112 + 14 * in, 190, x0 + 112 - 14 * in, 190, "#333");
+    s += text(x0, 284, tension ? "tension: bond 1 opens" : "compression: bond 2 opens,");
+    s += text(x0, 304, tension ? "at Tᵤ (Eqs. 2, 7)" : "then bond 1 slides (Eqs. 8–14)");
+  }
+  return s + "</svg>";
+}
+
+std::string sliding_drawing() {
+  std::string s = head(640, 260);
+  s += line(20, 190, 290, 190, "#555", 3) + circle(110, 140, 50, "none", true) + circle(150, 140, 50, "#c9d5de");
+  s += circle(110, 140, 3, "#333") + circle(150, 140, 3, "#333") + circle(110, 190, 4, "#d55e00") +
+       spring(110, 190, 150, 140, "#d55e00");
+  s += text(98, 135, "O′", "end") + text(158, 135, "O", "start") + text(110, 212, "P") +
+       arrow(205, 140, 250, 140, "#333") + text(228, 130, "f");
+  s += text(155, 250, "(a) locked: no sliding, no heat");
+  s += line(340, 190, 620, 190, "#555", 3) + circle(410, 140, 50, "none", true) + circle(520, 140, 50, "#c9d5de");
+  s += circle(410, 140, 3, "#333") + circle(520, 140, 3, "#333") + spring(385, 190, 410, 140, "#d55e00") +
+       spring(480, 190, 520, 140, "#d55e00");
+  s += text(410, 128, "O₁") + text(520, 128, "O₂") + text(385, 212, "P₁") + text(480, 212, "P₂") +
+       arrow(392, 200, 473, 200, "#d55e00") + arrow(420, 70, 510, 70, "#333");
+  s += text(465, 62, "dS′") + text(432, 228, "dS");
+  s += text(480, 250, "(b) dS = dS′ − (Fₛ₂ − Fₛ₁)/Kₛ");
+  return s + "</svg>";
+}
+
+}  // namespace
+
+FigureContent block(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "Identical elements stand in hexagonal close packing between two smooth planes; neighbours are joined by a "
+      "normal "
+      "and a shear spring, which break.";
+  const dem::Record* record = largest_record(study, 2500);
+  if (!record) record = any_record(study);
+  if (!record) return content;
+  content.panels.push_back(
+      {.id = "block",
+       .caption = "The block, layers A and B in turn.",
+       .alt = count(record->result("particles")) + " spheres in a nearly cubic block of close-packed layers.",
+       .content = block_picture(*record),
+       .per_row = 2});
+  content.panels.push_back(
+      {.id = "springs",
+       .caption = "The two springs of a bond. Elements do not rotate; the shear force acts at the centres.",
+       .alt = "Two pairs of spheres, one joined by a normal spring, one by a shear spring.",
+       .content = springs_drawing(),
+       .per_row = 2});
+  content.finding = fmt::format("The block shown has {} elements and {} bonds.", count(record->result("particles")),
+                                count(record->result("contacts")));
+  return content;
+}
+
+FigureContent unit(const StudyResult&) {
+  FigureContent content;
+  content.statement =
+      "Four elements make the unit from which the conversion formulas are derived: under tension its inclined bonds "
+      "open, "
+      "under compression its horizontal bonds open first and its inclined bonds slide later.";
+  content.panels.push_back(
+      {.id = "",
+       .caption = "The tetrahedral unit seen from the side, under tension and under compression.",
+       .alt = "One sphere on three that stand on a plane, pulled on the left, pressed on the right.",
+       .content = unit_drawing(),
+       .per_row = 1});
+  return content;
+}
+
+FigureContent sliding_distance(const StudyResult&) {
+  FigureContent content;
+  content.statement =
+      "Frictional heat is the mean sliding friction times the effective sliding distance: the tangential motion of the "
+      "pair less the change of the shear spring’s length (Eqs. 22, 23).";
+  content.panels.push_back(
+      {.id = "",
+       .caption = "(a) A contact locked by static friction. (b) A contact that slides.",
+       .alt = "A sphere on a surface: held at point P while its centre moves; then sliding from P1 to P2.",
+       .content = sliding_drawing(),
+       .per_row = 1});
+  return content;
+}
+
+FigureContent parameters(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "The element parameters of quartzite follow from its tested properties by the formulas of Appendix B.";
+  const dem::Record* r = any_record(study);
+  if (!r || !study.scenario) return content;
+  const dem::Scenario& s = *study.scenario;
+  const auto row = [](std::string a, std::string b, std::string c, std::string d) {
+    return std::vector<std::string>{std::move(a), std::move(b), std::move(c), std::move(d)};
+  };
+  TextTable table{{"Property of the rock", "Value", "Parameter of elements", "Value"}, {}};
+  table.rows = {
+      row("Young’s modulus E", number(1e-9 * s.real("rock.young_modulus"), 4) + " GPa", "Normal stiffness Kₙ",
+          number(1e-6 * r->result("normal_stiffness_N_per_m"), 5) + " × 10⁶ N/m"),
+      row("Poisson’s ratio ν", number(s.real("rock.poisson_ratio"), 4), "Shear stiffness Kₛ",
+          number(1e-6 * r->result("shear_stiffness_N_per_m"), 4) + " × 10⁶ N/m"),
+      row("Tensile strength Tᵤ", number(1e-6 * s.real("rock.tensile_strength"), 4) + " MPa",
+          "Breaking displacement X_b", number(1e7 * r->result("breaking_displacement_m"), 4) + " × 10⁻⁷ m"),
+      row("Compressive strength Cᵤ", number(1e-6 * s.real("rock.compressive_strength"), 4) + " MPa",
+          "Initial shear resistance Fₛ₀", number(r->result("initial_shear_resistance_N"), 5) + " N"),
+      row("Internal friction μᵢ", number(s.real("rock.internal_friction"), 4), "Friction of a contact μₚ",
+          number(r->result("contact_friction"), 4)),
+      row("Density ρ", number(s.real("rock.density"), 4) + " kg/m³", "Mass of an element m",
+          number(1e6 * r->result("element_mass_kg"), 4) + " × 10⁻⁶ kg"),
+      row("Element diameter d", number(1e3 * s.real("block.element_diameter"), 4) + " mm",
+          "First opening in compression C_open (Eq. 8)", number(r->result("opening_stress_theory_MPa"), 4) + " MPa")};
+  content.panels.push_back({.id = "",
+                            .caption = "Properties of the rock, and the parameters made of them.",
+                            .alt = "",
+                            .content = table,
+                            .per_row = 1});
+  double worst = 0;
+  bool known = true;
+  for (const auto& [name, id, unit] : {std::tuple{"normal_stiffness_N_per_m", "strength_kn", 1e6},
+                                       {"shear_stiffness_N_per_m", "strength_ks", 1e6},
+                                       {"breaking_displacement_m", "strength_xb", 1e-7},
+                                       {"initial_shear_resistance_N", "strength_fs0", 1.0},
+                                       {"contact_friction", "strength_mup", 1.0},
+                                       {"element_mass_kg", "element_mass", 1e-6}}) {
+    const double published = unit * study.published_value(id);
+    known = known && std::isfinite(published);
+    worst = std::max(worst, std::abs(r->result(name) / published - 1));
+  }
+  if (known) content.finding = "The largest deviation from the six published parameters is " + percent(worst, 3) + ".";
+  return content;
+}
+
+}  // namespace reports::lattice

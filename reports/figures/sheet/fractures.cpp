@@ -1,0 +1,271 @@
+// Fractures: maps at chosen strains, which way they run, how those that cross a layer are spaced.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "reports/figures/sheet/parts.h"
+#include "reports/figures/table.h"
+#include "reports/page/text.h"
+
+namespace reports::sheet {
+namespace {
+
+// Strains to show: the snapshots of the record.
+std::vector<double> strains_of(const dem::Record& r) {
+  std::vector<double> strains;
+  for (const auto& [name, strain] : snapshots_of(r)) strains.push_back(strain);
+  return strains;
+}
+
+std::string part(double value) {
+  std::string text = fmt::format("{:g}", value);
+  std::replace(text.begin(), text.end(), '.', '_');
+  return text;
+}
+
+std::string strain_words(double strain) { return number(100 * strain, 3) + " %"; }
+
+Panel map_panel(const StudyResult& study, const dem::Record& r, double strain, int per_row) {
+  const auto n = crack_counts(r, strain);
+  const std::string label = label_of(r, study);
+  return {.id = r.case_id + "_" + part(strain),
+          .caption = fmt::format("{} at {}: {} broken springs inside grains (orange), {} between grains (dark blue).",
+                                 label == "this run" ? "Fractures" : "Fractures, " + label + ",", strain_words(strain),
+                                 count(n[0]), count(n[1])),
+          .alt = fmt::format("Map of {} broken springs over the outlines of grains.", count(n[0] + n[1])),
+          .content = fracture_map(r, strain, per_row == 1 ? 880 : 430),
+          .per_row = per_row,
+          .whole_width = per_row == 1};
+}
+
+// Angles (radians, 0 ... pi) as a rose over the whole circle, weights equal.
+std::string rose(const std::vector<double>& angles, double reference, std::string_view reference_words) {
+  constexpr int bins = 18;
+  std::array<int, bins> n{};
+  for (const double a : angles) ++n[static_cast<std::size_t>(a / std::numbers::pi * bins) % bins];
+  const int most = std::max(1, *std::max_element(n.begin(), n.end()));
+  const double c = 190, r = 150;
+  std::string body;
+  for (const double share : {0.5, 1.0}) {
+    body += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"none\" stroke=\"#bbb\"/>", c, c, share * r);
+  }
+  for (int turn = 0; turn < 2; ++turn) {
+    for (int b = 0; b < bins; ++b) {
+      const double from = std::numbers::pi * b / bins + turn * std::numbers::pi, to = from + std::numbers::pi / bins;
+      const double length = r * std::sqrt(static_cast<double>(n[static_cast<std::size_t>(b)]) / most);
+      body += fmt::format(
+          "<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}A{:.1f} {:.1f} 0 0 0 {:.1f} {:.1f}Z\" fill=\"#6f9fc0\" "
+          "stroke=\"#0b3c5d\"/>",
+          c, c, c + length * std::cos(from), c - length * std::sin(from), length, length, c + length * std::cos(to),
+          c - length * std::sin(to));
+    }
+  }
+  const double ux = std::cos(reference), uy = std::sin(reference);
+  body += fmt::format(
+      "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#d55e00\" stroke-width=\"2\" "
+      "stroke-dasharray=\"7 4\"/>",
+      c - 172 * ux, c + 172 * uy, c + 172 * ux, c - 172 * uy);
+  body += fmt::format("<text x=\"{}\" y=\"402\" text-anchor=\"middle\" font-size=\"14\" fill=\"#b04a00\">{}</text>", c,
+                      reference_words);
+  body +=
+      fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"12\" fill=\"#555\">circle: {}</text>", c + 116, c - 120, most);
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 380 412\" width=\"380\" height=\"412\" "
+         "font-family=\"DejaVu Sans\">" +
+         body + "</svg>";
+}
+
+std::vector<double> trends_of(const dem::Record& r) {
+  std::vector<double> known;
+  for (const double t : r.table("cracks").real("trend")) {
+    if (std::isfinite(t)) known.push_back(t);
+  }
+  return known;
+}
+
+// Direction of each trend against the line to the nearest growing grain's centre, 0 ... 90 degrees.
+std::vector<double> off_radial(const dem::Record& r) {
+  const auto grain = r.table("particles").integer("grain");
+  const auto place = r.table("particles").real("position");
+  const auto growth = r.table("grains").real("growth");
+  std::vector<std::array<double, 3>> centre(growth.size(), {0, 0, 0});
+  for (std::size_t i = 0; i < grain.size(); ++i) {
+    auto& c = centre[static_cast<std::size_t>(grain[i])];
+    c[0] += place[2 * i], c[1] += place[2 * i + 1], c[2] += 1;
+  }
+  const auto trend = r.table("cracks").real("trend");
+  const auto at = r.table("cracks").real("position");
+  std::vector<double> angles;
+  for (std::size_t k = 0; k < trend.size(); ++k) {
+    if (!std::isfinite(trend[k])) continue;
+    double nearest = 1e9, direction = 0;
+    for (std::size_t g = 0; g < growth.size(); ++g) {
+      if (growth[g] <= 0 || centre[g][2] == 0) continue;
+      const double dx = at[2 * k] - centre[g][0] / centre[g][2], dy = at[2 * k + 1] - centre[g][1] / centre[g][2];
+      if (std::hypot(dx, dy) < nearest) nearest = std::hypot(dx, dy), direction = std::atan2(dy, dx);
+    }
+    angles.push_back(std::acos(std::min(1.0, std::fabs(std::cos(trend[k] - direction)))) * 180 / std::numbers::pi);
+  }
+  return angles;
+}
+
+}  // namespace
+
+FigureContent fracture_maps(const StudyResult& study) {
+  FigureContent content;
+  const dem::Record* r = main_record(study);
+  if (!r) return content;
+  const std::string test = r->text("test");
+  content.statement =
+      test == "pure_shear"
+          ? "Under pure shear fractures run mainly along grain boundaries and parallel to the compression."
+      : test == "growth" ? "Around grains that increase in volume fractures open radially and link neighbouring grains."
+      : test == "extension"
+          ? "A competent layer in extension breaks by through-going tensile fractures at regular spacing."
+          : "A competent layer in compression breaks where springs are pulled across the compression; every break is "
+            "tension.";
+  for (const double strain : strains_of(*r))
+    content.panels.push_back(map_panel(study, *r, strain, layered(*r) ? 1 : 2));
+  if (!r->has_result("onset_strain")) {
+    content.finding = "No spring broke.";
+    return content;
+  }
+  content.finding = fmt::format("{} springs broke, {} of them between grains; the first at a strain of {}.",
+                                count(r->result("cracks.intra_tension") + r->result("cracks.inter_tension")),
+                                percent(between_share(*r), 0), strain_words(result_or_nan(*r, "onset_strain")));
+  return content;
+}
+
+FigureContent rose_of_fractures(const StudyResult& study) {
+  FigureContent content;
+  std::vector<std::string> said;
+  for (const dem::Record* r : records_of(study)) {
+    if (r->text("solver") != "converged" || !r->has_result("along_compression_share")) continue;
+    if (r->text("test") == "pure_shear")
+      content.statement = "Fractures in the polycrystal run parallel to the compression.";
+    const auto angles = trends_of(*r);
+    if (angles.empty()) continue;
+    const double share = result_or_nan(*r, "along_compression_share");
+    const std::string label = label_of(*r, study);
+    content.panels.push_back(
+        {.id = r->case_id,
+         .caption = fmt::format("Trend of the fracture at each of {} broken springs, {}. Areas are counts; the outer "
+                                "circle is the fullest "
+                                "sector.",
+                                count(static_cast<double>(angles.size())), label),
+         .alt = fmt::format("{} of the trends lie within 30° of the compression.", percent(share, 0)),
+         .content =
+             rose(angles, r->text("test") == "compression" ? 0.0 : std::numbers::pi / 2, "direction of compression"),
+         .per_row = 2});
+    said.push_back(fmt::format("{}: {}", label, percent(share, 0)));
+  }
+  if (!said.empty()) {
+    content.finding =
+        "Share of trends within 30° of the compression (a third would be chance): " + joined(said, "; ") + ".";
+  }
+  return content;
+}
+
+FigureContent radial_fractures(const StudyResult& study) {
+  FigureContent content;
+  content.statement = "Fractures around growing grains are radial.";
+  const dem::Record* r = main_record(study);
+  if (!r) return content;
+  if (r->text("test") != "growth") {
+    content.panels.push_back(note_panel("", "Angle to the radial direction.", "No grain grows in this run."));
+    return content;
+  }
+  const auto angles = off_radial(*r);
+  if (angles.empty()) {
+    content.panels.push_back(
+        note_panel("", "Angle to the radial direction.", "Too few springs broke to tell a trend."));
+    return content;
+  }
+  std::vector<double> n(9, 0);
+  for (const double a : angles) ++n[std::min<std::size_t>(8, static_cast<std::size_t>(a / 10))];
+  for (double& v : n) v *= 100.0 / static_cast<double>(angles.size());
+  render::Chart chart;
+  render::Bars bars;
+  bars.categories = {"0–10", "10–20", "20–30", "30–40", "40–50", "50–60", "60–70", "70–80", "80–90"};
+  bars.labels = {"share of broken springs"};
+  bars.colours = {render::palette(5)};
+  bars.values = {n};
+  chart.bars = bars;
+  chart.x.title = "Angle between fracture and radius (°)";
+  chart.left.title = "Share (%)";
+  chart.marks.push_back(
+      {.kind = render::Mark::Kind::horizontal, .x = 0, .y = 100.0 / 9, .label = "chance", .colour = {0.3, 0.3, 0.3}});
+  chart.legend = render::Chart::Legend::none;
+  chart.width = 620;
+  chart.height = 380;
+  const double share = result_or_nan(*r, "radial_share");
+  content.panels.push_back(
+      {.id = "",
+       .caption = "Trend of fractures against the line to the centre of the nearest growing grain.",
+       .alt = fmt::format("{} of the trends lie within 30° of the radius.", percent(share, 0)),
+       .content = chart,
+       .per_row = 1});
+  content.finding = fmt::format("{} of {} trends lie within 30° of the radius (a third would be chance).",
+                                percent(share, 0), count(static_cast<double>(angles.size())));
+  return content;
+}
+
+FigureContent spacing(const StudyResult& study) {
+  FigureContent content;
+  const dem::Record* r = main_record(study);
+  if (!r || !r->table("history").has("crossing_fractures")) return content;
+  if (r->text("test") == "compression" && result_or_nan(*r, "crossing_fractures") < 1) {
+    content.panels.push_back(
+        note_panel("", "Spacing of fractures through the layer.", "No fracture crosses the layer in this run."));
+    return content;
+  }
+  content.statement =
+      "From the field: the spacing of through-going fractures falls with strain and comes to rest at a value set by "
+      "the "
+      "layer's thickness.";
+  const dem::Table& h = r->table("history");
+  render::Chart chart;
+  chart.x.title = "Strain (%)";
+  chart.left.title = "Mean spacing over layer thickness";
+  chart.right.title = "Fractures through the layer";
+  chart.left.low = 0;
+  chart.right.low = 0;
+  render::Series gap = curve(h, {"strain", "spacing_over_thickness", 100, 1}),
+                 number_of = curve(h, {"strain", "crossing_fractures", 100, 1});
+  gap.label = "spacing";
+  gap.colour = render::palette(5);
+  gap.marker = render::Marker::circle;
+  number_of.label = "number";
+  number_of.colour = render::palette(6);
+  number_of.line = render::Line::dash;
+  number_of.side = render::Side::right;
+  chart.series = {gap, number_of};
+  chart.legend = render::Chart::Legend::below;
+  chart.width = 640;
+  chart.height = 420;
+  const double last = result_or_nan(*r, "crossing_fractures");
+  content.panels.push_back(
+      {.id = "",
+       .caption = "Fractures that reach across four fifths of the layer's rows or more, and their mean spacing.",
+       .alt = fmt::format("At the end {} fractures cross the layer.", count(last)),
+       .content = chart,
+       .per_row = 1});
+  content.finding = fmt::format("{} fractures cross the layer at a strain of {}", count(last),
+                                strain_words(r->result("final_strain")));
+  if (r->has_result("spacing_over_thickness")) {
+    content.finding +=
+        fmt::format("; their mean spacing is {} layer thicknesses", number(r->result("spacing_over_thickness"), 3));
+  }
+  if (r->has_result("spacing_scatter")) {
+    content.finding +=
+        fmt::format(", with a scatter of {} of it (as many fractures placed at random: {})",
+                    percent(r->result("spacing_scatter"), 0), percent(r->result("spacing_scatter_chance"), 0));
+  }
+  content.finding += ".";
+  return content;
+}
+
+}  // namespace reports::sheet

@@ -1,0 +1,239 @@
+// The model itself: six neighbours, the deformation box, the order of work, grains under the particles.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "reports/figures/sheet/parts.h"
+#include "reports/figures/table.h"
+#include "reports/page/text.h"
+
+namespace reports::sheet {
+namespace {
+
+constexpr std::string_view wall_fill = "#9b6a3c", particle_fill = "#c9d7e3", spring_colour = "#333333";
+
+struct Particles {
+  std::span<const double> place;
+  std::span<const std::int32_t> grain, fixed;
+};
+Particles particles_of(const dem::Record& r) {
+  const dem::Table& t = r.table("particles");
+  return {t.real("position"), t.integer("grain"), t.integer("fixed")};
+}
+
+// A window of columns [c0, c1) and rows [r0, r1) with its particles and springs.
+struct Window {
+  int c0, c1, r0, r1;
+};
+
+template <class Fill>
+Drawing draw_window(const dem::Record& r, const Window& w, double width, bool outlines, Fill fill) {
+  const Layout l = layout_of(r);
+  const Particles p = particles_of(r);
+  const auto at = [&](int c, int row) { return static_cast<std::size_t>(row * l.columns + c); };
+  const auto x = [&](int c, int row) { return p.place[2 * at(c, row)]; };
+  const auto y = [&](int row) { return p.place[2 * at(0, row) + 1]; };
+  Drawing d(x(w.c0, w.r0) - 1.6 * l.radius, y(w.r0) - 1.6 * l.radius, x(w.c1 - 1, w.r0) + 2.6 * l.radius,
+            y(w.r1 - 1) + 1.6 * l.radius, width);
+  for (int row = w.r0; row < w.r1; ++row) {
+    for (int c = w.c0; c < w.c1; ++c) {
+      const std::size_t i = at(c, row);
+      d.circle(x(c, row), y(row), l.radius, fill(i), "#777777", 0.6);
+    }
+  }
+  for (int row = w.r0; row < w.r1; ++row) {
+    for (int c = w.c0; c < w.c1; ++c) {
+      const int shift = row % 2;
+      const int to[3][2] = {{c + 1, row}, {c + shift, row + 1}, {c + shift - 1, row + 1}};
+      for (const auto& t : to) {
+        if (t[0] < w.c0 || t[0] >= w.c1 || t[1] >= w.r1) continue;
+        d.line(x(c, row), y(row), x(t[0], t[1]), y(t[1]), spring_colour, 1.1);
+      }
+    }
+  }
+  if (outlines) {
+    for (const auto& cell : outlines_of(r)) {
+      for (std::size_t k = 0; k < cell.size(); ++k) {
+        const auto& a = cell[k];
+        const auto& b = cell[(k + 1) % cell.size()];
+        d.line(a[0], a[1], b[0], b[1], "#c03020", 3);
+      }
+      for (const auto& a : cell) d.circle(a[0], a[1], 0.35 * l.radius, "#ffffff", "#c03020", 2);
+    }
+  }
+  return d;
+}
+
+}  // namespace
+
+FigureContent neighbours(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "Particles lie on a triangular lattice, so that each has up to six neighbours; springs join neighbours along "
+      "their "
+      "lines of centres.";
+  const dem::Record* r = main_record(study);
+  if (!r) return content;
+  const Layout l = layout_of(*r);
+  const int c = l.columns / 2 - 2, row = l.rows / 2 / 2 * 2 - 2;
+  const std::size_t middle = static_cast<std::size_t>((row + 2) * l.columns + c + 2);
+  const Drawing d = draw_window(*r, {c, c + 5, row, row + 5}, 420, false, [&](std::size_t i) {
+    const auto p = particles_of(*r).place;
+    const double distance = std::hypot(p[2 * i] - p[2 * middle], p[2 * i + 1] - p[2 * middle + 1]);
+    return std::string(i == middle ? "#e69f00" : distance < 2.2 * l.radius ? "#f3d9a4" : std::string(particle_fill));
+  });
+  content.panels.push_back({.id = "",
+                            .caption = "Part of the model: a particle (dark), its six neighbours, and the springs.",
+                            .alt = "A patch of 25 discs in rows; one is joined to six neighbours by springs.",
+                            .content = d.finish(),
+                            .per_row = 2});
+  content.finding =
+      fmt::format("This sheet has {} particles in {} rows of {}, joined by {} springs.", count(r->result("particles")),
+                  count(l.rows), count(l.columns), count(r->result("contacts")));
+  return content;
+}
+
+FigureContent box(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "The outer rows are walls: fixed across the boundary, free along it, so that the walls have no friction.";
+  const dem::Record* r = main_record(study);
+  if (!r) return content;
+  const Layout l = layout_of(*r);
+  const Particles p = particles_of(*r);
+  const int n = std::min(12, l.columns), m = std::min(12, l.rows);
+  const Drawing corner = draw_window(
+      *r, {0, n, 0, m}, 460, false, [&](std::size_t i) { return std::string(p.fixed[i] ? wall_fill : particle_fill); });
+  content.panels.push_back({.id = "corner",
+                            .caption = "The lower left corner: wall particles (brown) and the sheet inside.",
+                            .alt = "Discs along the left and lower edge are brown, all others pale.",
+                            .content = corner.finish(),
+                            .per_row = 2});
+  Picture whole;
+  render::Spheres spheres;
+  for (std::size_t i = 0; i < p.grain.size(); ++i) {
+    spheres.centre.push_back({p.place[2 * i], p.place[2 * i + 1], 0});
+    spheres.radius.push_back(l.radius);
+    render::Colour colour{0.61, 0.42, 0.24};
+    if (!p.fixed[i]) {
+      const std::string fill = grain_fill(static_cast<std::size_t>(p.grain[i]));
+      const auto part = [&](std::size_t at) { return std::stoi(fill.substr(at, 2), nullptr, 16) / 255.0; };
+      colour = {part(1), part(3), part(5)};
+    }
+    spheres.colour.push_back(colour);
+  }
+  whole.scene.spheres = {spheres};
+  whole.scene.cuts.push_back({{0, 0, 0}, {0, 0, 1}});
+  whole.scene.camera.direction = {0, 0, -1};
+  whole.scene.camera.up = {0, 1, 0};
+  whole.scene.width = 800;
+  whole.scene.height = 800;
+  whole.label = "All particles, by grain";
+  whole.scale_bar = false;
+  whole.legend = {{{0.61, 0.42, 0.24}, "wall particles"}};
+  content.panels.push_back({.id = "whole",
+                            .caption = "The deformation box: particles coloured by grain, walls brown.",
+                            .alt = fmt::format("A square of {} discs in {} grains within a brown frame.",
+                                               count(r->result("particles")), count(r->result("grains"))),
+                            .content = whole,
+                            .per_row = 2});
+  return content;
+}
+
+FigureContent flow(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "After a deformation step the sheet relaxes; while a spring is over its strength, the one most likely to "
+      "fracture "
+      "breaks and the sheet relaxes again; then the next step begins.";
+  const dem::Record* r = main_record(study);
+  const bool growth = r && r->text("test") == "growth";
+  std::string body;
+  const auto box_at = [&](double x, double y, double w, std::string_view a, std::string_view b, std::string_view fill) {
+    body += fmt::format(
+        "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"54\" rx=\"7\" fill=\"{}\" stroke=\"#333\" stroke-width=\"1.5\"/>"
+        "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text><text x=\"{}\" y=\"{}\" "
+        "text-anchor=\"middle\">{}</text>",
+        x, y, w, fill, x + w / 2, y + 22, a, x + w / 2, y + 42, b);
+  };
+  const auto arrow = [&](double x0, double y0, double x1, double y1, bool tip = true) {
+    body += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" stroke=\"#333\" stroke-width=\"1.6\"/>", x0, y0,
+                        x1, y1);
+    if (!tip) return;
+    const double ux = x1 > x0 ? 1 : x1 < x0 ? -1 : 0, uy = y1 > y0 ? 1 : y1 < y0 ? -1 : 0;
+    body += fmt::format("<polygon points=\"{},{} {},{} {},{}\" fill=\"#333\"/>", x1, y1, x1 - 9 * ux - 5 * uy,
+                        y1 - 9 * uy - 5 * ux, x1 - 9 * ux + 5 * uy, y1 - 9 * uy + 5 * ux);
+  };
+  box_at(170, 10, 260, "Grain map and sheet", "stiffness and strength drawn", "#eef2f6");
+  box_at(170, 100, 260, growth ? "Grow the marked grains" : "Move walls and particles",
+         growth ? "by one step, walls held" : "affinely, by one step", "#fbf3dd");
+  box_at(170, 190, 260, "Relax to equilibrium", "springs and contacts", "#e4efe6");
+  box_at(170, 280, 260, "A spring over its strength?", "largest tension over threshold", "#eef2f6");
+  box_at(490, 235, 190, "Break that one spring", "keep its contact", "#f6dfd5");
+  box_at(170, 380, 260, "Record stress, energy, cracks", "last step? then end", "#eef2f6");
+  arrow(300, 64, 300, 99);
+  arrow(300, 154, 300, 189);
+  arrow(300, 244, 300, 279);
+  arrow(300, 334, 300, 379);
+  arrow(430, 307, 585, 307, false);
+  arrow(585, 307, 585, 290);
+  arrow(585, 235, 585, 217, false);
+  arrow(585, 217, 431, 217);
+  arrow(170, 407, 110, 407, false);
+  arrow(110, 407, 110, 127, false);
+  arrow(110, 127, 169, 127);
+  body += "<text x=\"505\" y=\"326\" text-anchor=\"middle\" font-size=\"13\">yes</text>";
+  body += "<text x=\"316\" y=\"362\" font-size=\"13\">no</text>";
+  body +=
+      "<text x=\"98\" y=\"270\" text-anchor=\"middle\" font-size=\"13\" transform=\"rotate(-90 98 270)\">next "
+      "step</text>";
+  content.panels.push_back(
+      {.id = "",
+       .caption = "The order of work.",
+       .alt =
+           "From the grain map to a load step, relaxation, a test of the springs, breaking of one spring and back to "
+           "relaxation until none is over its strength; then the next step.",
+       .content = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 700 445\" width=\"700\" height=\"445\" "
+                  "font-family=\"DejaVu Sans\" font-size=\"14\">" +
+                  body + "</svg>",
+       .per_row = 1});
+  if (r) {
+    content.finding = fmt::format("This run: {} load steps, {} relaxations, {} broken springs.",
+                                  count(r->result("load_steps")), count(r->result("solver.relaxations")),
+                                  count(r->result("cracks.intra_tension") + r->result("cracks.inter_tension")));
+  }
+  return content;
+}
+
+FigureContent elle_layer(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "Elle nodes and the segments between them are the outlines of grains; particles inside an outline belong to that "
+      "grain and share its properties.";
+  const dem::Record* r = main_record(study);
+  if (!r) return content;
+  const Layout l = layout_of(*r);
+  const Particles p = particles_of(*r);
+  // A window around the first inner node.
+  const auto nodes = r->table("outlines").real("position");
+  double cx = 0.5, cy = 0.5, best = 1e9;
+  for (std::size_t k = 0; k + 1 < nodes.size(); k += 2) {
+    const double off = std::hypot(nodes[k] - 0.5, nodes[k + 1] - 0.5 * l.height);
+    if (off < best) best = off, cx = nodes[k], cy = nodes[k + 1];
+  }
+  const int n = std::min(22, l.columns - 2), m = std::min(20, l.rows - 2);
+  const int c = std::clamp(static_cast<int>(cx * l.columns) - n / 2, 0, l.columns - n);
+  const int row = std::clamp(static_cast<int>(cy / l.height * l.rows) - m / 2, 0, l.rows - m) / 2 * 2;
+  const Drawing d = draw_window(*r, {c, c + n, row, row + m}, 560, true,
+                                [&](std::size_t i) { return grain_fill(static_cast<std::size_t>(p.grain[i])); });
+  content.panels.push_back({.id = "",
+                            .caption = "Outlines of grains (nodes and segments) over the particles that they hold.",
+                            .alt = "Polygon edges with nodes cross a patch of discs that are coloured by grain.",
+                            .content = d.finish(),
+                            .per_row = 1});
+  content.finding =
+      fmt::format("{} grains hold {} particles.", count(r->result("grains")), count(r->result("particles")));
+  return content;
+}
+
+}  // namespace reports::sheet

@@ -1,0 +1,192 @@
+#include "reports/figures/sheet/parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/page/text.h"
+
+namespace reports::sheet {
+namespace {
+
+// A grain over the box's edge is drawn at both sides: as it is, and moved by a cell.
+std::vector<std::array<double, 2>> moved(std::vector<std::array<double, 2>> points, double dx, double dy) {
+  for (auto& p : points) p[0] += dx, p[1] += dy;
+  return points;
+}
+
+bool marked(const dem::Record& record, std::size_t grain) {
+  const dem::Table& grains = record.table("grains");
+  if (grains.real("growth")[grain] > 0) return true;
+  const auto k = grains.real("stiffness");
+  double softest = 1e300;
+  for (const double v : k) {
+    if (std::isfinite(v)) softest = std::min(softest, v);
+  }
+  return std::isfinite(k[grain]) && k[grain] > 20 * softest;
+}
+
+}  // namespace
+
+std::vector<const dem::Record*> records_of(const StudyResult& study) {
+  std::vector<const dem::Record*> all;
+  for (const CaseResult& c : study.cases) {
+    if (c.record) all.push_back(c.record);
+  }
+  return all;
+}
+
+const dem::Record* main_record(const StudyResult& study) {
+  const auto all = records_of(study);
+  return all.empty() ? nullptr : all.front();
+}
+
+std::string label_of(const dem::Record& record, const StudyResult& study) {
+  std::string label;
+  for (const dem::Record* other : records_of(study)) {
+    if (other->number("spread") != record.number("spread")) {
+      label = fmt::format("spread {:g}", record.number("spread"));
+      break;
+    }
+  }
+  if (record.text("solver") == "as_published") label += std::string(label.empty() ? "" : ", ") + "as published";
+  return label.empty() ? "this run" : label;
+}
+
+// From the counts, which records made before the result had its present name hold as well.
+double between_share(const dem::Record& record) {
+  const double between = record.result("cracks.inter_tension");
+  return between / (between + record.result("cracks.intra_tension"));
+}
+
+Layout layout_of(const dem::Record& record) {
+  const dem::Table& t = record.table("particles");
+  Layout l;
+  l.columns = std::stoi(t.attribute("columns"));
+  l.rows = std::stoi(t.attribute("rows"));
+  l.radius = std::stod(t.attribute("radius"));
+  l.height = 2 * l.radius + std::sqrt(3.0) * l.radius * (l.rows - 1);
+  return l;
+}
+
+Drawing::Drawing(double x0, double y0, double x1, double y1, double width)
+    : x0_(x0), y1_(y1), scale_(width / (x1 - x0)), width_(width), height_((y1 - y0) * width / (x1 - x0)) {}
+
+void Drawing::polygon(const std::vector<std::array<double, 2>>& points, std::string_view fill, std::string_view stroke,
+                      double stroke_width) {
+  body_ += "<polygon points=\"";
+  for (const auto& p : points) body_ += fmt::format("{:.2f},{:.2f} ", px(p[0]), py(p[1]));
+  body_ += fmt::format("\" fill=\"{}\" stroke=\"{}\" stroke-width=\"{}\"/>", fill, stroke, stroke_width);
+}
+void Drawing::line(double x0, double y0, double x1, double y1, std::string_view colour, double width) {
+  body_ +=
+      fmt::format("<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" stroke=\"{}\" stroke-width=\"{}\"/>",
+                  px(x0), py(y0), px(x1), py(y1), colour, width);
+}
+void Drawing::circle(double x, double y, double radius, std::string_view fill, std::string_view stroke,
+                     double stroke_width) {
+  body_ +=
+      fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"{}\"/>",
+                  px(x), py(y), radius * scale_, fill, stroke, stroke_width);
+}
+void Drawing::text(double x, double y, std::string_view words, double size, std::string_view anchor) {
+  body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" text-anchor=\"{}\">{}</text>", px(x), py(y),
+                       size, anchor, words);
+}
+std::string Drawing::finish(double extra_below) const {
+  return fmt::format(
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" width=\"{:.0f}\" "
+             "height=\"{:.0f}\" "
+             "font-family=\"DejaVu Sans\">",
+             width_, height_ + extra_below, width_, height_ + extra_below) +
+         body_ + "</svg>";
+}
+
+std::string grain_fill(std::size_t grain) {
+  static constexpr std::array<std::string_view, 6> fills{"#dfe6ee", "#efe6d8", "#e3eee0",
+                                                         "#eee0e6", "#e6e3f0", "#f1eede"};
+  return std::string(fills[(grain * 2654435761U >> 7) % fills.size()]);
+}
+
+std::vector<std::vector<std::array<double, 2>>> outlines_of(const dem::Record& record) {
+  const dem::Table& t = record.table("outlines");
+  const auto grain = t.integer("grain");
+  const auto place = t.real("position");
+  std::vector<std::vector<std::array<double, 2>>> result(record.table("grains").rows());
+  for (std::size_t i = 0; i < grain.size(); ++i) {
+    result[static_cast<std::size_t>(grain[i])].push_back({place[2 * i], place[2 * i + 1]});
+  }
+  return result;
+}
+
+bool layered(const dem::Record& record) { return record.table("history").has("crossing_fractures"); }
+
+std::string fracture_map(const dem::Record& record, double strain, double width) {
+  const Layout l = layout_of(record);
+  const auto outlines = outlines_of(record);
+  double low = 0, high = l.height;
+  if (layered(record)) {  // the layer and as much matrix on either side: fractures are too small in the whole box
+    low = l.height, high = 0;
+    for (std::size_t g = 0; g < outlines.size(); ++g) {
+      if (!marked(record, g)) continue;
+      for (const auto& p : outlines[g]) low = std::min(low, p[1]), high = std::max(high, p[1]);
+    }
+    const double thickness = high - low;
+    low = std::max(0.0, low - thickness), high = std::min(l.height, high + thickness);
+  }
+  Drawing d(0, low, 1 + l.radius, high, width);
+  for (std::size_t g = 0; g < outlines.size(); ++g) {
+    const std::string_view fill = marked(record, g) ? marked_fill : std::string_view("#ffffff");
+    for (const double dx : {-1.0, 0.0, 1.0}) {
+      for (const double dy : {-l.height, 0.0, l.height}) {
+        const auto image = moved(outlines[g], dx, dy);
+        const bool seen = std::any_of(image.begin(), image.end(), [&](const auto& p) {
+          return p[0] > -0.001 && p[0] < 1.001 && p[1] > -0.001 && p[1] < l.height + 0.001;
+        });
+        if (seen) d.polygon(image, fill, "#b5b5b5", 0.7);
+      }
+    }
+  }
+  const dem::Table& cracks = record.table("cracks");
+  const auto at = cracks.real("strain"), place = cracks.real("position"), angle = cracks.real("angle");
+  const auto between = cracks.integer("place");
+  // The crack across a spring is as long as the side of the cell that two particles share.
+  const double half = 0.75 * l.radius, thick = std::clamp(1.4 * l.radius * d.scale(), 0.7, 2.5);
+  for (const int wanted : {1, 0}) {
+    std::string path;
+    for (std::size_t c = 0; c < at.size(); ++c) {
+      if (at[c] > strain * (1 + 1e-9) || between[c] != wanted) continue;
+      const double ux = half * std::cos(angle[c]), uy = half * std::sin(angle[c]);
+      path += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", d.px(place[2 * c] - ux), d.py(place[2 * c + 1] - uy),
+                          d.px(place[2 * c] + ux), d.py(place[2 * c + 1] + uy));
+    }
+    if (path.empty()) continue;
+    d.raw(fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"{:.2f}\" stroke-linecap=\"round\" fill=\"none\"/>",
+                      path, wanted ? inter_colour : intra_colour, thick));
+  }
+  d.raw(fmt::format("<rect x=\"0.5\" y=\"0.5\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#555\"/>",
+                    width - 1, (high - low) * d.scale() - 1));
+  return d.finish();
+}
+
+std::array<int, 2> crack_counts(const dem::Record& record, double strain) {
+  const dem::Table& cracks = record.table("cracks");
+  const auto at = cracks.real("strain");
+  const auto between = cracks.integer("place");
+  std::array<int, 2> n{0, 0};
+  for (std::size_t c = 0; c < at.size(); ++c) {
+    if (at[c] <= strain * (1 + 1e-9)) ++n[static_cast<std::size_t>(between[c])];
+  }
+  return n;
+}
+
+std::vector<std::pair<std::string, double>> snapshots_of(const dem::Record& record) {
+  std::vector<std::pair<std::string, double>> all;
+  for (const dem::Table& t : record.tables) {
+    if (t.name.rfind("snapshots/", 0) == 0) all.emplace_back(t.name, std::stod(t.attribute("strain")));
+  }
+  return all;
+}
+
+}  // namespace reports::sheet

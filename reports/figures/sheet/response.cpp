@@ -1,0 +1,294 @@
+// Response to the load: stress, breaks, energy, fields of stress, both solvers beside each other.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+
+#include "reports/figures/sheet/parts.h"
+#include "reports/figures/table.h"
+#include "reports/page/text.h"
+
+namespace reports::sheet {
+namespace {
+
+// A load step gives two points: loaded, then after its breaks.
+render::Series sawtooth(const dem::Table& h, const std::string& loaded, const std::string& after, double factor) {
+  const auto strain = h.real("strain"), top = h.real(loaded), bottom = h.real(after);
+  render::Series s;
+  s.x.push_back(0), s.y.push_back(0);
+  for (std::size_t i = 0; i < strain.size(); ++i) {
+    s.x.insert(s.x.end(), {100 * strain[i], 100 * strain[i]});
+    s.y.insert(s.y.end(), {factor * top[i], factor * bottom[i]});
+  }
+  return s;
+}
+
+render::Chart stress_chart(const dem::Record& r) {
+  const dem::Table& h = r.table("history");
+  render::Chart chart;
+  chart.x.title = r.text("test") == "growth" ? "Growth of radii (%)" : "Strain (%)";
+  chart.left.title = "Wall stress (10⁻³ k)";
+  chart.right.title = "Broken springs";
+  chart.right.low = 0;
+  render::Series xx = sawtooth(h, "loaded_stress_xx", "stress_xx", 1e3),
+                 yy = sawtooth(h, "loaded_stress_yy", "stress_yy", 1e3);
+  xx.label = "σxx", yy.label = "σyy";
+  xx.colour = render::palette(5), yy.colour = render::palette(6);
+  yy.line = render::Line::dash;
+  render::Series breaks = curve(h, {"strain", "breaks", 100, 1});
+  breaks.x.insert(breaks.x.begin(), 0), breaks.y.insert(breaks.y.begin(), 0);
+  breaks.label = "broken springs";
+  breaks.colour = {0.35, 0.35, 0.35};
+  breaks.line = render::Line::dot;
+  breaks.side = render::Side::right;
+  chart.series = {xx, yy, breaks};
+  chart.legend = render::Chart::Legend::below;
+  chart.width = 560;
+  chart.height = 420;
+  return chart;
+}
+
+render::Colour between(const render::Colour& a, const render::Colour& b, double t) {
+  return {a.red + t * (b.red - a.red), a.green + t * (b.green - a.green), a.blue + t * (b.blue - a.blue)};
+}
+// Blue for compression, red for tension, pale in the middle.
+render::Colour diverging(double t) {
+  const render::Colour blue{0.13, 0.40, 0.67}, pale{0.97, 0.97, 0.95}, red{0.70, 0.09, 0.17};
+  return t < 0 ? between(pale, blue, std::min(1.0, -t)) : between(pale, red, std::min(1.0, t));
+}
+render::Colour rising(double t) {
+  const render::Colour low{1.0, 0.97, 0.85}, middle{0.90, 0.50, 0.15}, high{0.25, 0.02, 0.10};
+  t = std::clamp(t, 0.0, 1.0);
+  return t < 0.5 ? between(low, middle, 2 * t) : between(middle, high, 2 * t - 1);
+}
+
+// The size below which a share of the values lies: single springs at crack tips would take the whole scale.
+double size_at(std::span<const double> values, double share) {
+  std::vector<double> size;
+  for (const double v : values) {
+    if (std::isfinite(v)) size.push_back(std::fabs(v));
+  }
+  if (size.empty()) return 0;
+  const auto at = size.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(size.size() - 1));
+  std::nth_element(size.begin(), at, size.end());
+  return *at;
+}
+
+Panel field_panel(const dem::Record& r, const std::string& table, double strain, const std::string& column,
+                  const std::string& words, bool signed_values) {
+  const Layout l = layout_of(r);
+  const auto place = r.table("particles").real("position");
+  const dem::Table& t = r.table(table);
+  const auto value = t.real(column), move = t.real("displacement");
+  const double scale = std::max(size_at(value, 0.99), 1e-12);
+  // Where all of the sheet is stressed much alike, colours begin at the least of it.
+  const double least = signed_values ? 0.0 : size_at(value, 0.01);
+  const double low = least > 0.3 * scale && least < scale ? least : 0.0;
+  render::Spheres spheres;
+  spheres.cut_edges = false;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    spheres.centre.push_back({place[2 * i] + move[2 * i], place[2 * i + 1] + move[2 * i + 1], 0});
+    spheres.radius.push_back(1.16 * l.radius);  // wide enough to leave no gap between three
+    spheres.colour.push_back(signed_values ? diverging(value[i] / scale) : rising((value[i] - low) / (scale - low)));
+  }
+  Picture p;
+  p.scene.spheres = {spheres};
+  p.scene.cuts.push_back({{0, 0, 0}, {0, 0, 1}});  // discs in flat colours: a value, not a shape
+  p.scene.camera.direction = {0, 0, -1};
+  p.scene.camera.up = {0, 1, 0};
+  p.scene.width = 900;
+  p.scene.height = 900;
+  p.scale_bar = false;
+  p.label = words;
+  for (const double share : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
+    if (!signed_values && share < 0) continue;
+    const double at = low + share * (scale - low);
+    p.legend.push_back(
+        {signed_values ? diverging(share) : rising(share), at == 0 ? "0" : number(1e3 * at, 3) + " × 10⁻³ k"});
+  }
+  const auto range = std::minmax_element(value.begin(), value.end());
+  return {
+      .id = column + fmt::format("_{}", table.substr(table.size() - 4)),
+      .caption = fmt::format("{} at {} %; colours cover all but the outermost hundredth of the particles.", words,
+                             number(100 * strain, 3)),
+      .alt = fmt::format("Values go from {} to {} in units of k.", number(*range.first, 2), number(*range.second, 2)),
+      .content = p,
+      .per_row = 2};
+}
+
+}  // namespace
+
+FigureContent stress_strain(const StudyResult& study) {
+  FigureContent content;
+  const dem::Record* main = main_record(study);
+  if (!main) return content;
+  content.statement = main->text("test") == "pure_shear"
+                          ? "Narrow strength distributions fail abruptly; wide ones crack early and fail gradually."
+                          : "";
+  std::vector<std::string> said;
+  for (const dem::Record* r : records_of(study)) {
+    const std::string label = label_of(*r, study);
+    content.panels.push_back(
+        {.id = r->case_id,
+         .caption = fmt::format("{}: stress on the walls (tension positive), before and after the breaks of each step.",
+                                label == "this run" ? "Response" : "Response, " + label),
+         .alt = fmt::format("Largest differential stress {} at {} %.",
+                            number(r->result("peak_differential_stress_dimensionless"), 3),
+                            number(100 * r->result("strain_at_peak"), 3)),
+         .content = stress_chart(*r),
+         .per_row = 2});
+    const std::string start = label == "this run" ? std::string() : label + ": ";
+    if (!r->has_result("onset_strain")) {
+      said.push_back(start + "no spring broke");
+      continue;
+    }
+    std::string words =
+        fmt::format("{}first break at {} %; the worst step breaks {} of the springs", start,
+                    number(100 * r->result("onset_strain"), 3), percent(result_or_nan(*r, "worst_step_share"), 0));
+    if (result_or_nan(*r, "largest_drop_share") > 0) {
+      words +=
+          fmt::format(" and takes {} of the largest tension on the walls", percent(r->result("largest_drop_share"), 0));
+    }
+    said.push_back(words);
+  }
+  std::string words = joined(said, "; ") + ".";
+  words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
+  content.finding = words;
+  return content;
+}
+
+FigureContent energy(const StudyResult& study) {
+  FigureContent content;
+  std::vector<std::string> said;
+  for (const dem::Record* r : records_of(study)) {
+    if (r->text("solver") != "converged") continue;
+    const dem::Table& h = r->table("history");
+    const auto strain = h.real("strain"), elastic = h.real("elastic"), released = h.real("released"),
+               jumped = h.real("jumped");
+    const auto boundary = h.real("boundary_work"), growth = h.real("growth_work");
+    render::Chart chart;
+    render::Band stored{.label = "elastic", .x = {0}, .low = {0}, .high = {0}, .colour = render::palette(1)};
+    render::Band lost{
+        .label = "released by breaking and jumps", .x = {0}, .low = {0}, .high = {0}, .colour = render::palette(0)};
+    render::Series work;
+    work.label = "work done";
+    work.x = work.y = {0};
+    for (std::size_t i = 0; i < strain.size(); ++i) {
+      const double x = 100 * strain[i], e = 1e6 * elastic[i];
+      stored.x.push_back(x), stored.low.push_back(0), stored.high.push_back(e);
+      lost.x.push_back(x), lost.low.push_back(e), lost.high.push_back(e + 1e6 * (released[i] + jumped[i]));
+      work.x.push_back(x), work.y.push_back(1e6 * (boundary[i] + growth[i]));
+    }
+    chart.bands = {stored, lost};
+    chart.series = {work};
+    chart.x.title = r->text("test") == "growth" ? "Growth of radii (%)" : "Strain (%)";
+    chart.left.title = "Energy (10⁻⁶ k box²)";
+    chart.left.low = 0;
+    chart.legend = render::Chart::Legend::top_left;
+    chart.width = 560;
+    chart.height = 400;
+    const double residual = r->result("energy_residual");
+    const std::string label = label_of(*r, study);
+    content.panels.push_back(
+        {.id = r->case_id,
+         .caption = label == "this run" ? std::string("Energy.") : fmt::format("Energy, {}.", label),
+         .alt = fmt::format("Work, elastic energy and released energy agree to {} of the work.", number(residual, 2)),
+         .content = chart,
+         .per_row = 2});
+    said.push_back(label == "this run" ? number(residual, 2) : fmt::format("{}: {}", label, number(residual, 2)));
+  }
+  if (!said.empty())
+    content.finding =
+        "Work of the walls and of growing grains is stored in springs, or released by breaking and by jumps from one "
+        "equilibrium to another. Unaccounted for, as a "
+        "share of the work: " +
+        joined(said, "; ") + ".";
+  return content;
+}
+
+FigureContent stress_fields(const StudyResult& study) {
+  FigureContent content;
+  content.finding = "Stress of each particle from the springs that it holds, over its cell of the lattice.";
+  const dem::Record* r = main_record(study);
+  if (!r) return content;
+  const auto snapshots = snapshots_of(*r);
+  if (snapshots.empty()) return content;
+  std::vector<std::size_t> shown{0};
+  if (snapshots.size() > 1) shown.push_back(snapshots.size() - 1);
+  for (const std::size_t k : shown) {
+    const auto& [name, strain] = snapshots[k];
+    content.panels.push_back(field_panel(*r, name, strain, "mean_stress", "Mean stress", true));
+    content.panels.push_back(field_panel(*r, name, strain, "differential_stress", "Differential stress", false));
+  }
+  return content;
+}
+
+FigureContent solvers(const StudyResult& study) {
+  FigureContent content;
+  const dem::Record *ours = nullptr, *theirs = nullptr;
+  for (const dem::Record* r : records_of(study)) {
+    if (r->text("solver") == "as_published") theirs = r;
+  }
+  for (const dem::Record* r : records_of(study)) {
+    if (theirs && r->text("solver") == "converged" && r->number("spread") == theirs->number("spread")) ours = r;
+  }
+  if (!ours || !theirs) {
+    content.panels.push_back(
+        note_panel("", "Both solvers.", "This study has no pair of cases made with both solvers."));
+    return content;
+  }
+  TextTable table{{"", "converged", "as published"}, {}};
+  const auto row = [&](const char* words, const char* key, auto text) {
+    table.rows.push_back({words, text(result_or_nan(*ours, key)), text(result_or_nan(*theirs, key))});
+  };
+  const auto broken = [](const dem::Record& r) {
+    return count(r.result("cracks.intra_tension") + r.result("cracks.inter_tension"));
+  };
+  table.rows.push_back({"Broken springs", broken(*ours), broken(*theirs)});
+  row("Strain at the first break (%)", "onset_strain", [](double v) { return number(100 * v, 3); });
+  row("Peak differential stress (k)", "peak_differential_stress_dimensionless", [](double v) { return number(v, 4); });
+  row("Strain at the peak (%)", "strain_at_peak", [](double v) { return number(100 * v, 3); });
+  table.rows.push_back({"Share between grains", percent(between_share(*ours), 1), percent(between_share(*theirs), 1)});
+  row("Largest unbalanced over largest spring force", "unbalanced_force_dimensionless",
+      [](double v) { return number(v, 2); });
+  row("Energy unaccounted for, share of the work", "energy_residual", [](double v) { return number(v, 2); });
+  // How long the two orders of breaking agree.
+  const auto a = ours->table("cracks").real("position"), b = theirs->table("cracks").real("position");
+  std::size_t same = 0;
+  while (2 * same + 1 < std::min(a.size(), b.size()) && a[2 * same] == b[2 * same] &&
+         a[2 * same + 1] == b[2 * same + 1])
+    ++same;
+  table.rows.push_back(
+      {"Breaks in the same order from the start", count(static_cast<double>(same)), count(static_cast<double>(same))});
+  std::set<std::pair<double, double>> broken_ours;
+  for (std::size_t k = 0; k + 1 < a.size(); k += 2) broken_ours.insert({a[k], a[k + 1]});
+  std::size_t shared = 0;
+  for (std::size_t k = 0; k + 1 < b.size(); k += 2) shared += broken_ours.count({b[k], b[k + 1]});
+  const double both = a.empty() ? 0.0 : 2.0 * static_cast<double>(shared) / static_cast<double>(a.size());
+  table.rows.push_back(
+      {"Springs broken in both", count(static_cast<double>(shared)), count(static_cast<double>(shared))});
+  content.panels.push_back(
+      {.id = "numbers", .caption = "One sheet, two solvers.", .alt = "", .content = table, .per_row = 1});
+  const double strain = std::min(ours->result("final_strain"), theirs->result("final_strain"));
+  for (const dem::Record* r : {ours, theirs}) {
+    const auto n = crack_counts(*r, strain);
+    content.panels.push_back(
+        {.id = r->text("solver"),
+         .caption = fmt::format("Fractures at {} %, {}: {} inside grains, {} between.", number(100 * strain, 3),
+                                words(r->text("solver")), count(n[0]), count(n[1])),
+         .alt = fmt::format("Map of {} broken springs.", count(n[0] + n[1])),
+         .content = fracture_map(*r, strain, 430),
+         .per_row = 2});
+  }
+  content.finding = fmt::format(
+      "The historical sweep stops when no particle moves by more than 1.4 × 10⁻⁷ of the box in a sweep; the converged "
+      "solver stops at force equilibrium. {}; {} of the springs that break converged also break as published.",
+      same == 0 ? "The very first break differs"
+                : fmt::format("The order is the same up to break {}", count(static_cast<double>(same))),
+      percent(both, 0));
+  return content;
+}
+
+}  // namespace reports::sheet

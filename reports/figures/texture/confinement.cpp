@@ -1,0 +1,405 @@
+// The granite under confining pressure: stress-strain curves (Zhao et al. 2021, Fig. 10), strengths and their envelopes
+// (Fig. 11), and how the stress falls after the peak.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "reports/after_peak.h"
+#include "reports/envelopes.h"
+#include "reports/figures/table.h"
+#include "reports/figures/texture/parts.h"
+#include "reports/page/text.h"
+
+namespace reports::texture {
+namespace {
+
+constexpr int half_width = 440, curves_height = 380;
+
+const render::Colour peak_colour = render::palette(0), damage_colour = render::palette(1),
+                     initiation_colour = render::palette(2), strain_colour = render::palette(3);
+
+double peak_stress(const dem::Record& record) {
+  return record.has_result("ucs_MPa") ? record.result("ucs_MPa") : result_or_nan(record, "confined_strength_MPa");
+}
+
+std::vector<SeriesCase> confined(const StudyResult& study) {
+  return series_of(of_mineral(study, ""), test_compression, confining_axis);
+}
+
+std::vector<double> tensile_strengths(const StudyResult& study) {
+  std::vector<double> values;
+  for (const SeriesCase& item : series_of(of_mineral(study, ""), test_tension, confining_axis)) {
+    for (const dem::Record* record : item.repeats) {
+      const double ts = result_or_nan(*record, "tensile_strength_MPa");
+      if (std::isfinite(ts)) values.push_back(ts);
+    }
+  }
+  return values;
+}
+
+// What Fig. 10 enlarges reaches a little past crack initiation (%).
+double small_strain(const std::vector<SeriesCase>& cases) {
+  double reach = 0.15;
+  for (const SeriesCase& item : cases) {
+    const double strain = 100 * result_or_nan(*item.record, "crack_initiation_strain.axial_stiffness");
+    if (std::isfinite(strain)) reach = std::max(reach, 1.1 * strain);
+  }
+  return reach;
+}
+
+struct Column {
+  const char *name, *title;
+  double factor;
+};
+
+// One column of every history against the axial strain, up to a strain (%) or to the end.
+render::Chart against_strain(const std::vector<SeriesCase>& cases, const Column& column, double up_to) {
+  render::Chart chart;
+  chart.x.title = "Axial strain (%)";
+  chart.left.title = column.title;
+  add_curves(chart, cases, {"axial_strain", column.name, 100, column.factor}, up_to);
+  chart.legend = render::Chart::Legend::below;
+  chart.width = half_width;
+  chart.height = curves_height;
+  return chart;
+}
+
+void mark_initiation(render::Chart& chart, const std::vector<SeriesCase>& cases, const Measure& height) {
+  render::Series marks{.label = "σci by axial stiffness",
+                       .x = {},
+                       .y = {},
+                       .colour = {0, 0, 0},
+                       .line = render::Line::none,
+                       .marker = render::Marker::diamond,
+                       .y_error = {}};
+  for (const SeriesCase& item : cases) {
+    const double strain = 100 * result_or_nan(*item.record, "crack_initiation_strain.axial_stiffness");
+    const double y = height(*item.record);
+    if (!std::isfinite(strain) || !std::isfinite(y)) continue;
+    marks.x.push_back(strain);
+    marks.y.push_back(y);
+  }
+  if (!marks.x.empty()) chart.series.push_back(marks);
+}
+
+// Half the range of the axial stiffness over its mean where its plateau is read, between 10 and 25 % of the way to the peak:
+// what the start of the platens leaves there.
+double swing_of_plateau(const dem::Record& record) {
+  const dem::Table& history = record.table("history");
+  const auto stress = history.real("axial_stress"), stiffness = history.real("axial_stiffness");
+  if (stress.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const double base = 1e6 * record.number("confining_pressure_MPa"), rise = std::ranges::max(stress) - base;
+  double low = std::numeric_limits<double>::infinity(), high = 0, sum = 0, count = 0;
+  for (std::size_t i = 0; i < stress.size() && stress[i] < base + 0.25 * rise; ++i) {
+    if (stress[i] < base + 0.10 * rise || !std::isfinite(stiffness[i])) continue;
+    low = std::min(low, stiffness[i]);
+    high = std::max(high, stiffness[i]);
+    sum += stiffness[i];
+    ++count;
+  }
+  return 0.5 * (high - low) * count / sum;
+}
+
+double stiffness_at_initiation(const dem::Record& record) {
+  const dem::Table& history = record.table("history");
+  return 1e-9 * at_first(history.real("axial_strain"), history.real("axial_stiffness"),
+                         result_or_nan(record, "crack_initiation_strain.axial_stiffness"));
+}
+
+/// Crack initiation in laboratories, Eq. 12: between these shares of sigma_c plus these multiples of sigma_3.
+struct InitiationRange {
+  double share_low = 0.3, share_high = 0.5, slope_low = 1, slope_high = 1.5;
+  [[nodiscard]] bool holds(double share, double slope) const {
+    return share >= share_low && share <= share_high && slope >= slope_low && slope <= slope_high;
+  }
+};
+constexpr InitiationRange laboratories;
+
+/// An envelope of the paper whose formula it gives; NaN for another rock.
+struct Published {
+  double sigma_c, m, s;
+  [[nodiscard]] double operator()(double sigma_3) const { return analysis::hoek_brown(sigma_3, sigma_c, m, s); }
+};
+
+render::Series points(const StrengthPoints& of, const std::string& label, const render::Colour& colour,
+                      render::Marker marker) {
+  return {.label = label,
+          .x = of.sigma_3,
+          .y = of.sigma_1,
+          .colour = colour,
+          .line = render::Line::none,
+          .marker = marker,
+          .y_error = {}};
+}
+
+render::Chart envelope_chart(const StudyResult& study, const Envelopes& found, const std::vector<double>& tension) {
+  render::Chart chart;
+  chart.x.title = "Confining pressure σ₃ (MPa)";
+  chart.left.title = "Axial stress σ₁ (MPa)";
+  chart.left.low = 0;
+  double high = 10;
+  for (const double x : found.peak.sigma_3) high = std::max(high, x);
+  chart.series.push_back(points(found.peak, "peak", peak_colour, render::Marker::circle));
+  chart.series.push_back(points(found.damage, "crack damage", damage_colour, render::Marker::square));
+  // The two readings that the paper's text gives: where the stiffness leaves its plateau, and its number, the stress at 0.1 %.
+  const Initiation &by_stiffness = found.initiation[0], &by_strain = found.initiation[1];
+  chart.series.push_back(
+      points(by_stiffness.points, "σci by axial stiffness", initiation_colour, render::Marker::triangle));
+  chart.series.push_back(
+      points(by_strain.points, "σci as stress at 0.1 % strain", strain_colour, render::Marker::cross));
+  std::erase_if(chart.series, [](const render::Series& s) { return s.x.empty(); });
+  if (!tension.empty()) {
+    render::Series ts{.label = "direct tension",
+                      .x = {},
+                      .y = {},
+                      .colour = {0, 0, 0},
+                      .line = render::Line::none,
+                      .marker = render::Marker::diamond,
+                      .y_error = {}};
+    for (const double t : tension) {
+      ts.x.push_back(-t);
+      ts.y.push_back(0);
+    }
+    chart.series.push_back(ts);
+  }
+  const auto line = [&](const std::string& label, const render::Colour& colour, render::Line kind, const auto& at) {
+    render::Series series = line_of(0, high, at);
+    series.label = label;
+    series.colour = colour;
+    series.line = kind;
+    if (!series.x.empty()) chart.series.push_back(series);
+  };
+  if (found.peak_fit)
+    line("our fits", peak_colour, render::Line::solid, [&](double x) { return found.peak_fit->at(x); });
+  if (found.damage_fit) line("", damage_colour, render::Line::solid, [&](double x) { return found.damage_fit->at(x); });
+  if (by_stiffness.fit)
+    line("", initiation_colour, render::Line::solid, [&](double x) { return by_stiffness.fit->at(x); });
+  if (by_strain.fit) line("", strain_colour, render::Line::solid, [&](double x) { return by_strain.fit->at(x); });
+  // Eq. 11, and Martin's fit to laboratory tests as section 3.3 quotes it.
+  const auto published = [&](const char* id) { return study.published_value(id); };
+  const double sigma_c = published("envelope_peak_sigma_c"), intercept = published("initiation_intercept"),
+               slope = published("initiation_slope");
+  line("published fits", peak_colour, render::Line::dash, Published{sigma_c, published("envelope_peak_m"), 1});
+  line("", damage_colour, render::Line::dash,
+       Published{sigma_c, published("envelope_damage_m"), published("envelope_damage_s")});
+  line("", strain_colour, render::Line::dash, [&](double x) { return intercept + slope * x; });
+  line("Martin’s laboratory peak", {0.4, 0.4, 0.4}, render::Line::dot,
+       Published{published("martin_sigma_c"), published("martin_m"), 1});
+  const render::Colour range_colour{0.55, 0.55, 0.55};
+  line("laboratories’ σci, Eq. 12", range_colour, render::Line::dash_dot,
+       [&](double x) { return laboratories.share_low * found.ucs + laboratories.slope_low * x; });
+  line("", range_colour, render::Line::dash_dot,
+       [&](double x) { return laboratories.share_high * found.ucs + laboratories.slope_high * x; });
+  chart.legend = render::Chart::Legend::below;
+  chart.width = 640;
+  chart.height = 480;
+  return chart;
+}
+
+TextTable envelope_table(const StudyResult& study, const Envelopes& found) {
+  TextTable table{{"Envelope", "Parameter", "Published", "Ours (95 % interval)", "Points"}, {}};
+  const auto row = [&](const char* envelope, const char* parameter, const char* published, std::string_view name,
+                       std::size_t n) {
+    const auto estimate = found.find(name);
+    const double value = study.published_value(published);
+    table.rows.push_back({envelope, parameter, std::isfinite(value) ? shortest(value) : "–",
+                          estimate ? estimate_text(*estimate, 3, true) : "no fit", std::to_string(n)});
+  };
+  row("peak, σc = UCS, s = 1", "m", "envelope_peak_m", "peak.m", found.peak.sigma_1.size());
+  row("peak, s = 1", "σc (MPa)", "envelope_peak_sigma_c", "free.sigma_c", found.peak.sigma_1.size());
+  row("", "m", "envelope_free_m", "free.m", found.peak.sigma_1.size());
+  row("crack damage, σc = UCS", "m", "envelope_damage_m", "damage.m", found.damage.sigma_1.size());
+  row("", "s", "envelope_damage_s", "damage.s", found.damage.sigma_1.size());
+  for (const Initiation& one : found.initiation) {
+    const std::string name = "crack initiation: " + std::string(one.name), id = "initiation." + std::string(one.id);
+    row(name.c_str(), "at σ₃ = 0 (MPa)", "initiation_intercept", id + ".intercept", one.points.sigma_1.size());
+    row("", "slope", "initiation_slope", id + ".slope", one.points.sigma_1.size());
+  }
+  return table;
+}
+
+}  // namespace
+
+FigureContent confinement_curves(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "The peak rises with the confining pressure. Crack initiation, where the axial stiffness starts to fluctuate, "
+      "stays below 0.1 % strain.";
+  const auto cases = confined(study);
+  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  if (cases.empty()) return content;
+  const std::string peaks = by_case(cases, peak_stress, 4, "MPa");
+  const std::string strains = by_case(cases, result("crack_initiation_strain.axial_stiffness", 100), 2, "%");
+  render::Chart whole = against_strain(cases, {"axial_stress", "Axial stress σ₁ (MPa)", 1e-6}, 1e300);
+  whole.left.low = 0;
+  content.panels.push_back(
+      {.id = "stress",
+       .caption = "Axial stress against axial strain, from the isotropic state, to the end of the test.",
+       .alt = "Stress-strain curves; peaks of " + peaks + ".",
+       .content = whole});
+  render::Chart start = against_strain(cases, {"axial_stress", "Axial stress σ₁ (MPa)", 1e-6}, small_strain(cases));
+  start.left.low = 0;
+  mark_initiation(start, cases, result("crack_initiation_MPa.axial_stiffness"));
+  content.panels.push_back(
+      {.id = "start",
+       .caption = "The same at small strains, and where the stiffness leaves its plateau.",
+       .alt = "Stress at small strains; the stiffness leaves its plateau at strains of " + strains + ".",
+       .content = start});
+  render::Chart stiffness =
+      against_strain(cases, {"axial_stiffness", "Axial stiffness (GPa)", 1e-9}, small_strain(cases));
+  double highest = 0;
+  for (const SeriesCase& item : cases) highest = std::max(highest, result_or_nan(*item.record, "young_modulus_GPa"));
+  stiffness.left.low = 0;
+  if (highest > 0) stiffness.left.high = 1.4 * highest;
+  mark_initiation(stiffness, cases, stiffness_at_initiation);
+  content.panels.push_back(
+      {.id = "stiffness",
+       .caption = "Axial stiffness (Eq. 9) at small strains, and where it leaves its plateau.",
+       .alt = "Axial stiffness; Young’s moduli of " + by_case(cases, result("young_modulus_GPa"), 3, "GPa") + ".",
+       .content = stiffness});
+  content.finding = "At " +
+                    joined(
+                        [&] {
+                          std::vector<std::string> labels;
+                          for (const SeriesCase& item : cases) labels.push_back(item.label);
+                          return labels;
+                        }(),
+                        ", ") +
+                    " the peaks are " + peaks + ", and the axial stiffness leaves its plateau at strains of " +
+                    strains + ".";
+  const double departure =
+      study.scenario ? study.scenario->real("measure.stiffness_departure") : std::numeric_limits<double>::infinity();
+  std::vector<std::string> uneven;
+  for (const SeriesCase& item : cases) {
+    const double swing = swing_of_plateau(*item.record);
+    if (swing > departure) uneven.push_back(item.label + " (± " + percent(swing, 1) + ")");
+  }
+  if (!uneven.empty()) {
+    content.finding += " The start of the platens still swings the stiffness by more than the " +
+                       percent(departure, 0) + " that are looked for, where the plateau is read, at " + listed(uneven) +
+                       ": what is read there is not of cracks alone.";
+  }
+  return content;
+}
+
+FigureContent confinement_envelopes(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "Hoek-Brown envelopes with σc 206 MPa and m 29, s 1 for the peak, m 16, s 0.6 for crack damage; crack initiation "
+      "at "
+      "71.1 MPa + 1.1 σ₃, within the range of laboratories, (0.3 to 0.5) σc + (1 to 1.5) σ₃ (Eq. 12). Points of the "
+      "flat "
+      "joint model and of laboratories, which the text does not list, are left out.";
+  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  const Envelopes found = envelopes_of(study);
+  if (found.peak.sigma_3.empty()) return content;
+  const auto tension = tensile_strengths(study);
+  std::vector<std::string> said;
+  if (found.peak_fit) {
+    said.push_back("peak with σc = UCS, " + number(found.ucs, 4) + " MPa, and m " +
+                   estimate_text(found.peak_fit->m, 3));
+  }
+  if (found.damage_fit) {
+    said.push_back("crack damage with m " + estimate_text(found.damage_fit->m, 3) + " and s " +
+                   estimate_text(found.damage_fit->s, 2));
+  }
+  for (const Initiation* one : {&found.initiation[0], &found.initiation[1]}) {
+    if (!one->fit) continue;
+    said.push_back(fmt::format("crack initiation ({}) at {} MPa with a slope of {}", one->name,
+                               estimate_text(one->fit->intercept, 3), estimate_text(one->fit->slope, 2)));
+  }
+  const std::string fits = said.empty() ? "too few pressures for a fit" : joined(said, "; ");
+  content.panels.push_back(
+      {.id = "",
+       .caption = "Strengths against confining pressure with fitted envelopes; the tensile strength stands at −σ₃.",
+       .alt = "Peak stresses from " + number(std::ranges::min(found.peak.sigma_1), 3) + " to " +
+              number(std::ranges::max(found.peak.sigma_1), 3) + " MPa. Fits: " + fits + ".",
+       .content = envelope_chart(study, found, tension)});
+  content.panels.push_back({.id = "parameters",
+                            .caption = "Parameters of the envelopes, by least squares of σ₁.",
+                            .alt = "",
+                            .content = envelope_table(study, found),
+                            .per_row = 1});
+  content.finding = "Fitted: " + fits + ".";
+  // Eq. 12: 0.3 to 0.5 of sigma_c, slope 1 to 1.5. Of the four readings only a stress at a set strain has a slope near 1 by itself:
+  // it is sigma_3 and the elastic stress of that strain.
+  const double ucs = found.ucs;
+  for (const Initiation& one : found.initiation) {
+    if (!one.fit || !std::isfinite(ucs)) continue;
+    const double share = one.fit->intercept.value / ucs, slope = one.fit->slope.value;
+    content.finding += fmt::format(" By {}: {} UCS {} {} σ₃, {} the range of Eq. 12.", one.name, number(share, 2),
+                                   slope < 0 ? "−" : "+", number(std::abs(slope), 2),
+                                   laboratories.holds(share, slope) ? "inside" : "outside");
+  }
+  return content;
+}
+
+FigureContent confinement_after_peak(const StudyResult& study) {
+  FigureContent content;
+  content.statement = "After the peak the rock turns from brittle to ductile with confining pressure.";
+  const auto cases = confined(study);
+  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  const Measure residual = result("residual_over_peak");
+  render::Series series = means(cases, residual);
+  if (series.x.empty()) {
+    content.panels.push_back(
+        note_panel("none", "After the peak.", "No test was followed past its peak (compression.follow)."));
+    return content;
+  }
+  series.colour = peak_colour;
+  render::Chart chart;
+  chart.x.title = confining_axis.title;
+  chart.left.title = "Residual over peak stress";
+  chart.left.low = 0;
+  chart.left.high = 1.1;
+  series.label = "at the end";
+  chart.series.push_back(series);
+  const double reach = common_reach(cases);
+  const Measure equal = stress_after_peak(reach);
+  render::Series beside = means(cases, equal);
+  const std::string same_strain = number(reach, 2) + " % of strain after the peak";
+  beside.label = same_strain;
+  beside.colour = damage_colour;
+  beside.line = render::Line::dash;
+  chart.series.push_back(beside);
+  chart.legend = render::Chart::Legend::bottom_right;
+  chart.width = 600;
+  chart.height = 280;
+  const std::string ratios = by_case(cases, residual, 2, "");
+  content.panels.push_back(
+      {.id = "residual",
+       .caption = "Residual stress over the peak: the mean over the last twentieth of the strain that all tests are "
+                  "followed to, as a multiple of their peak’s; "
+                  "and the stress at one and the same strain after the peak, as far as the shortest test goes.",
+       .alt = "Residual over peak " + ratios + "; at " + same_strain + " " + by_case(cases, equal, 2, "") + ".",
+       .content = chart});
+  TextTable servo{{"Confining pressure (MPa)", "Largest error of the servo (%)"}, {}};
+  double worst = 0;
+  for (const SeriesCase& item : cases) {
+    const double error = spread_of(item, result("servo_error", 100)).mean;
+    if (!std::isfinite(error)) continue;
+    worst = std::max(worst, error);
+    servo.rows.push_back({number(item.value), number(error, 2)});
+  }
+  if (!servo.rows.empty()) {
+    content.panels.push_back(
+        {.id = "servo",
+         .caption = "Largest departure of the wall’s pressure from its set value, over the whole test.",
+         .alt = "",
+         .content = servo,
+         .per_row = 1});
+  }
+  content.finding = "Residual over peak: " + ratios + ".";
+  const std::string trend = trend_words(cases, residual, "", confining_axis);
+  if (!trend.empty()) content.finding += " It " + trend + ".";
+  const std::string beside_trend = trend_words(cases, equal, "", confining_axis);
+  content.finding += " At " + same_strain + " the stress is " + by_case(cases, equal, 2, "") + " of the peak";
+  content.finding += beside_trend.empty() ? "." : ": it " + beside_trend + ".";
+  if (!servo.rows.empty()) content.finding += " The confining pressure is kept within " + number(worst, 2) + " %.";
+  return content;
+}
+
+}  // namespace reports::texture

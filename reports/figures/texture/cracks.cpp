@@ -1,0 +1,355 @@
+// Crack maps and counts against the swept parameter (Zhao et al. 2021, Figs. 12, 15, 17) and stages of cracking (Fig. 9).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "reports/figures/table.h"
+#include "reports/figures/texture/parts.h"
+#include "reports/page/text.h"
+
+namespace reports::texture {
+namespace {
+
+Measure number_of(const CrackClass& one) { return result("cracks." + std::string(one.id)); }
+
+double all_of(const dem::Record& record) {
+  double total = 0;
+  for (const CrackClass& one : crack_classes()) total += number_of(one)(record);
+  return total;
+}
+
+Measure share_of(const CrackClass& one) {
+  return [&one](const dem::Record& record) {
+    const double total = all_of(record);
+    return total > 0 ? 100 * number_of(one)(record) / total : std::nan("");
+  };
+}
+
+// Bars grouped by class: a bar a case.
+render::Chart bars_by_class(const std::vector<SeriesCase>& cases) {
+  render::Bars bars;
+  bool repeated = false;
+  for (const CrackClass& one : crack_classes()) bars.categories.emplace_back(one.name);
+  bars.categories.emplace_back("all");
+  for (const SeriesCase& item : cases) {
+    bars.labels.push_back(item.label);
+    bars.colours.push_back(item.colour);
+    std::vector<double> values, errors;
+    for (std::size_t k = 0; k <= crack_classes().size(); ++k) {
+      const Spread spread =
+          spread_of(item, k < crack_classes().size() ? number_of(crack_classes()[k]) : Measure(all_of));
+      values.push_back(std::isfinite(spread.mean) ? spread.mean : 0);
+      errors.push_back(spread.deviation);
+      repeated = repeated || spread.count > 1;
+    }
+    bars.values.push_back(values);
+    bars.errors.push_back(errors);
+  }
+  if (!repeated) bars.errors.clear();
+  bars.print_values = !repeated;
+  render::Chart chart;
+  chart.x.title = "Class of crack";
+  chart.left.title = "Number of cracks";
+  chart.bars = bars;
+  chart.legend = render::Chart::Legend::top_left;
+  chart.width = 720;  // room for the numbers above the bars
+  chart.height = 340;
+  return chart;
+}
+
+// Lines along the swept parameter: a line a class, and one for all cracks.
+render::Chart lines_by_class(const std::vector<SeriesCase>& cases, const Axis& axis, bool shares) {
+  constexpr std::array lines{render::Line::solid, render::Line::dash, render::Line::dash_dot, render::Line::dot};
+  constexpr std::array markers{render::Marker::circle, render::Marker::square, render::Marker::diamond,
+                               render::Marker::triangle};
+  render::Chart chart;
+  chart.x.title = axis.title;
+  chart.left.title = shares ? "Share of cracks (%)" : "Number of cracks";
+  chart.left.low = 0;
+  for (std::size_t k = 0; k < crack_classes().size(); ++k) {
+    const CrackClass& one = crack_classes()[k];
+    render::Series series = means(cases, shares ? share_of(one) : number_of(one));
+    series.label = one.name;
+    series.colour = one.colour;
+    series.line = lines[k];
+    series.marker = markers[k];
+    if (!series.x.empty()) chart.series.push_back(series);
+  }
+  if (!shares) {
+    render::Series total = means(cases, all_of);
+    total.label = "all";
+    total.colour = {0.45, 0.45, 0.45};
+    total.marker = render::Marker::cross;
+    if (!total.x.empty()) chart.series.push_back(total);
+  }
+  chart.legend = render::Chart::Legend::below;
+  chart.width = 440;
+  chart.height = 380;
+  return chart;
+}
+
+std::string with_its(const std::vector<SeriesCase>& cases) {
+  return std::ranges::any_of(cases, [](const SeriesCase& c) { return c.repeats.size() > 1; })
+             ? " Means of repeats; bars are one standard deviation."
+             : "";
+}
+
+std::string crack_alt(const dem::Record& record, std::size_t count, const std::string& what) {
+  return what + " " + crack_words(crack_numbers(record, count)) + ".";
+}
+
+struct Stage {
+  std::string_view moment, name;
+};
+constexpr std::array stages{Stage{"stable_growth", "Stable crack growth"}, Stage{"damage", "Crack damage"},
+                            Stage{"unstable_growth", "Unstable crack growth"}, Stage{"post_peak", "After the peak"},
+                            Stage{"end", "End of loading"}};
+
+const dem::Table* snapshot(const dem::Record& record, std::string_view moment) {
+  for (const dem::Table& table : record.tables) {
+    if (table.name.starts_with("snapshots/") && table.attribute("moment") == moment) return &table;
+  }
+  return nullptr;
+}
+
+std::size_t cracks_so_far(const dem::Table& moment) {
+  const std::string text = moment.attribute("cracks");
+  return text.empty() ? 0 : static_cast<std::size_t>(std::stoull(text));
+}
+
+std::string at_strain(const dem::Table& moment) {
+  const std::string strain = moment.attribute("strain");
+  const std::string stress = moment.attribute("stress");
+  if (strain.empty() || stress.empty()) return {};
+  return fmt::format(", {} % strain, {} MPa", number(100 * std::stod(strain), 3), number(1e-6 * std::stod(stress), 3));
+}
+
+// Which pairs of minerals share most of the inter-grain tension cracks among the first `count`.
+std::string weakest_boundary(const dem::Record& record, std::size_t count) {
+  const dem::Table& cracks = record.table("cracks");
+  const auto a = cracks.integer("mineral_a");
+  const auto b = cracks.integer("mineral_b");
+  const auto place = cracks.integer("place");
+  std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> pairs;
+  std::size_t all = 0;
+  for (std::size_t i = 0; i < std::min(count, cracks.rows()); ++i) {
+    if (place[i] != 1) continue;
+    ++pairs[std::minmax(a[i], b[i])];
+    ++all;
+  }
+  if (all == 0) return {};
+  const auto most = std::ranges::max_element(pairs, {}, [](const auto& item) { return item.second; });
+  const auto names = minerals_of(record);
+  return fmt::format("{} of the inter-grain cracks lie between {} and {}",
+                     percent(static_cast<double>(most->second) / static_cast<double>(all), 0),
+                     names.at(static_cast<std::size_t>(most->first.first)),
+                     names.at(static_cast<std::size_t>(most->first.second)));
+}
+
+// Cracks so far at each stage by the minerals at their ends, "tension / shear".
+TextTable cracks_by_minerals(const dem::Record& record) {
+  const dem::Table& cracks = record.table("cracks");
+  const auto a = cracks.integer("mineral_a"), b = cracks.integer("mineral_b");
+  const auto place = cracks.integer("place"), mode = cracks.integer("mode");
+  const auto names = minerals_of(record);
+  using Ends = std::array<std::int32_t, 3>;  // place, minerals in order
+  std::map<Ends, std::vector<std::array<std::size_t, 2>>> numbers;
+  TextTable table{{"Cracks so far, tension / shear"}, {}};
+  std::vector<std::size_t> until;
+  for (const Stage& stage : stages) {
+    const dem::Table* moment = snapshot(record, stage.moment);
+    if (!moment) continue;
+    table.head.emplace_back(stage.name);
+    until.push_back(std::min(cracks_so_far(*moment), cracks.rows()));
+  }
+  for (std::size_t k = 0; k < until.size(); ++k) {
+    for (std::size_t i = 0; i < until[k]; ++i) {
+      auto& counts = numbers[{place[i], std::min(a[i], b[i]), std::max(a[i], b[i])}];
+      counts.resize(until.size());
+      ++counts[k][mode[i] != 0];
+    }
+  }
+  for (const auto& [ends, counts] : numbers) {
+    const auto name = [&](std::size_t i) { return names.at(static_cast<std::size_t>(ends[i])); };
+    std::vector<std::string> row{ends[0] == 0 ? "within " + name(1) : "between " + name(1) + " and " + name(2)};
+    for (const auto& [tension, shear] : counts) {
+      row.push_back(count(static_cast<double>(tension)) + " / " + count(static_cast<double>(shear)));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string discs_note(double scale) {
+  return (scale < 1 ? fmt::format(", drawn {:.1g} times as large as they are", scale) : std::string()) + ".";
+}
+
+}  // namespace
+
+FigureContent crack_maps(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "The failure modes at aspect ratios 1, 2 and 3 look alike; cracks spread through the whole specimen.";
+  const auto cases = swept(study, test_compression);
+  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  const int per_row = cases.size() <= 3 ? 3 : 4;
+  double scale = 1;  // one for all, so that pictures can be compared
+  for (const SeriesCase& item : cases) scale = std::min(scale, legible_disc_scale(*item.record));
+  for (const SeriesCase& item : cases) {
+    content.panels.push_back({.id = "discs_" + item.id,
+                              .caption = "All cracks as discs in the transparent specimen" + discs_note(scale),
+                              .alt = crack_alt(*item.record, all_cracks, "Cracks at " + item.label + ":"),
+                              .content = transparent_cracks(*item.record, all_cracks, item.label, 480, scale),
+                              .per_row = per_row});
+  }
+  for (const SeriesCase& item : cases) {
+    content.panels.push_back(
+        {.id = "section_" + item.id,
+         .caption = "Cracks within half a mean particle diameter of the longitudinal section, over the minerals.",
+         .alt = "Section at " + item.label + " with the traces of the cracks near it over the minerals.",
+         .content = section_cracks(*item.record, all_cracks, item.label, 480),
+         .per_row = per_row});
+  }
+  std::vector<std::string> totals;
+  for (const SeriesCase& item : cases) {
+    std::size_t total = 0;
+    for (const std::size_t n : crack_numbers(*item.record, all_cracks)) total += n;
+    totals.push_back(count(static_cast<double>(total)) + " at " + item.label);
+  }
+  if (!totals.empty()) content.finding = "Cracks at the end of loading: " + listed(totals) + ".";
+  return content;
+}
+
+FigureContent crack_counts(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "The number of cracks grows with the aspect ratio in every class, most for tension; shear within grains changes "
+      "little, shear between grains more.";
+  const auto cases = swept(study, test_compression);
+  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  if (cases.empty()) return content;
+  const Axis& axis = swept_axis(study);
+  std::vector<std::string> parts;
+  for (const CrackClass& one : crack_classes())
+    parts.push_back(std::string(one.name) + " " + by_case(cases, number_of(one), 0, ""));
+  parts.push_back("all " + by_case(cases, all_of, 0, ""));
+  std::vector<std::string> labels, shares;
+  for (const SeriesCase& item : cases) labels.push_back(item.label);
+  for (const CrackClass& one : crack_classes())
+    shares.push_back(std::string(one.name) + " " + by_case(cases, share_of(one), 3, "%"));
+  const std::string found = "Cracks at " + joined(labels, ", ") + ": " + joined(parts, "; ") + ".";
+  if (axis.parameter == "aspect_ratio") {
+    content.panels.push_back({.id = "",
+                              .caption = "Cracks at the end of loading, by class and aspect ratio." + with_its(cases),
+                              .alt = found,
+                              .content = bars_by_class(cases)});
+  } else {
+    content.panels.push_back({.id = "numbers",
+                              .caption = "Cracks at the end of loading, by class." + with_its(cases),
+                              .alt = found,
+                              .content = lines_by_class(cases, axis, false),
+                              .per_row = 2});
+    content.panels.push_back({.id = "shares",
+                              .caption = "Their shares of all cracks." + with_its(cases),
+                              .alt = joined(shares, "; ") + ".",
+                              .content = lines_by_class(cases, axis, true),
+                              .per_row = 2});
+  }
+  content.finding = found;
+  if (cases.size() > 2 || !with_its(cases).empty()) {
+    std::vector<std::string> trends;
+    for (const CrackClass& one : crack_classes()) {
+      const std::string trend = trend_words(cases, number_of(one), "", axis);
+      if (!trend.empty()) trends.push_back(std::string(one.name) + " " + trend);
+    }
+    if (!trends.empty()) content.finding += " Along " + std::string(axis.words) + ": " + joined(trends, "; ") + ".";
+  }
+  return content;
+}
+
+FigureContent dip_crack_maps(const StudyResult& study) {
+  FigureContent content = crack_maps(study);
+  content.statement = "The dip of the long axes has little influence on the failure mode.";
+  return content;
+}
+
+FigureContent dip_crack_counts(const StudyResult& study) {
+  FigureContent content = crack_counts(study);
+  content.statement =
+      "From dip 0° to 90° cracks within grains tend to get fewer, while tension cracks between grains keep rising.";
+  return content;
+}
+
+FigureContent confinement_crack_maps(const StudyResult& study) {
+  FigureContent content = crack_maps(study);
+  content.statement =
+      "With confining pressure the number of cracks grows, shear cracks within grains most; failure turns from axial "
+      "splitting to shear.";
+  return content;
+}
+
+FigureContent confinement_crack_counts(const StudyResult& study) {
+  FigureContent content = crack_counts(study);
+  content.statement =
+      "The number of tension cracks stays about constant over the confining pressures; number and share of shear "
+      "cracks rise. The fifth of the published categories is taken for the total.";
+  return content;
+}
+
+FigureContent crack_stages(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "First come tension cracks on grain boundaries, scattered and mostly beside alkali feldspar; tension cracks then "
+      "spread within grains until crack damage; shear within grains follows in unstable growth and crosses whole "
+      "grains; "
+      "shear on grain boundaries comes after the peak.";
+  const auto cases = swept(study, test_compression);
+  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  if (cases.empty()) return content;
+  const SeriesCase& base = cases.front();
+  const double scale = legible_disc_scale(*base.record);
+  std::vector<Panel> discs, sections;
+  std::vector<std::string> said;
+  for (const Stage& stage : stages) {
+    const dem::Table* moment = snapshot(*base.record, stage.moment);
+    if (!moment) continue;
+    const std::size_t so_far = cracks_so_far(*moment);
+    said.push_back(count(static_cast<double>(so_far)) + " (" + words(stage.moment) + ")");
+    discs.push_back(
+        {.id = std::string(stage.moment) + "_discs",
+         .caption = "All cracks so far as discs in the transparent specimen" + discs_note(scale),
+         .alt = crack_alt(*base.record, so_far, std::string(stage.name) + ":"),
+         .content = transparent_cracks(*base.record, so_far, std::string(stage.name) + at_strain(*moment), 340, scale),
+         .per_row = 5});
+    sections.push_back(
+        {.id = std::string(stage.moment) + "_section",
+         .caption = "Cracks within half a mean particle diameter of the longitudinal section, over the minerals.",
+         .alt = std::string(stage.name) + ": traces of the cracks near the section, over the minerals.",
+         .content = section_cracks(*base.record, so_far, std::string(stage.name), 340),
+         .per_row = 5});
+  }
+  if (discs.empty()) {
+    content.panels.push_back(
+        note_panel("none", "Stages of cracking.", "The record of " + base.record->case_id + " keeps no snapshots."));
+    return content;
+  }
+  content.panels.insert(content.panels.end(), discs.begin(), discs.end());
+  content.panels.insert(content.panels.end(), sections.begin(), sections.end());
+  content.panels.push_back({.id = "by_minerals",
+                            .caption = "The same by the minerals at their ends.",
+                            .alt = "",
+                            .content = cracks_by_minerals(*base.record),
+                            .per_row = 1});
+  content.finding = "At " + base.label + ", cracks so far: " + listed(said) + ".";
+  const dem::Table* first = snapshot(*base.record, "stable_growth");
+  if (first) {
+    const std::string boundary = weakest_boundary(*base.record, cracks_so_far(*first));
+    if (!boundary.empty()) content.finding += " In stable growth " + boundary + ".";
+  }
+  return content;
+}
+
+}  // namespace reports::texture

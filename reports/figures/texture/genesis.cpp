@@ -1,0 +1,268 @@
+// How a specimen is made: seeds, packing, masks, growth, contact groups (Zhao et al. 2021, Figs. 3 and 5).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "reports/figures/table.h"
+#include "reports/figures/texture/parts.h"
+#include "reports/page/text.h"
+
+namespace reports::texture {
+namespace {
+
+constexpr int narrow = 320;                         // px, of pictures beside each other
+const render::Colour gap_colour{0.99, 0.99, 0.99};  // the paper's white balls
+const render::Colour grey{0.80, 0.82, 0.84};
+const render::Colour joint_colour{0.10, 0.35, 0.75}, bond_colour{0.15, 0.60, 0.20};  // as the paper's Fig. 5h
+const render::Colour boundary_same{0.93, 0.55, 0.10}, boundary_other{0.75, 0.05, 0.05};
+
+// Particles after `round` rounds of growth: those without a grain yet are white.
+render::Spheres after_round(const dem::Record& record, std::int32_t round) {
+  render::Spheres spheres = particles_by_mineral(record);
+  const auto claimed = record.table("particles").integer("growth_round");
+  for (std::size_t i = 0; i < claimed.size(); ++i) {
+    if (claimed[i] > round) spheres.colour[i] = gap_colour;
+  }
+  return spheres;
+}
+
+std::int32_t rounds_of(const dem::Record& record) {
+  const auto claimed = record.table("particles").integer("growth_round");
+  return claimed.empty() ? 0 : std::ranges::max(claimed);
+}
+
+std::size_t gaps_after(const dem::Record& record, std::int32_t round) {
+  return static_cast<std::size_t>(std::ranges::count_if(record.table("particles").integer("growth_round"),
+                                                        [&](std::int32_t r) { return r > round; }));
+}
+
+render::Spheres seeds_of(const dem::Record& record) {
+  const dem::Table& grains = record.table("grains");
+  const auto centre = grains.real("centre"), radius = grains.real("radius");
+  const auto mineral = grains.integer("mineral");
+  const auto names = minerals_of(record);
+  render::Spheres spheres;
+  for (std::size_t g = 0; g < radius.size(); ++g) {
+    spheres.centre.push_back({centre[3 * g], centre[3 * g + 1], centre[3 * g + 2]});
+    spheres.radius.push_back(radius[g]);
+    spheres.colour.push_back(mineral_colour(names.at(static_cast<std::size_t>(mineral[g]))));
+  }
+  return spheres;
+}
+
+render::Scene scene_of(const dem::Record& record, render::Spheres spheres, bool section) {
+  render::Scene scene = section ? section_scene(record, narrow) : specimen_scene(record, narrow);
+  scene.spheres = {std::move(spheres)};
+  return scene;
+}
+
+std::vector<LegendEntry> with_gaps(const dem::Record& record) {
+  std::vector<LegendEntry> legend = mineral_legend(record);
+  legend.push_back({gap_colour, "no grain yet"});
+  return legend;
+}
+
+// A square window around the middle of the axis that shows a few grains.
+std::array<render::Point, 2> window(const dem::Record& record) {
+  const auto radius = record.table("grains").real("radius");
+  const double mean =
+      std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(std::max<std::size_t>(1, radius.size()));
+  const Size size = size_of(record);
+  const double half = std::min(4.5 * mean, 0.5 * size.diameter), middle = size.z_low + 0.5 * size.height;
+  return {{{-half, -half, middle - half}, {half, half, middle + half}}};
+}
+
+/// Contacts whose middle lies near the section y = 0, as lines between the centres.
+struct ContactLines {
+  std::vector<render::Polyline> lines;
+  std::vector<std::size_t> numbers;  ///< of all contacts, by class
+};
+template <class ClassOf>
+ContactLines contact_lines(const dem::Record& record, const std::vector<render::Colour>& colours, ClassOf class_of) {
+  const dem::Table& particles = record.table("particles");
+  const auto position = particles.real("position");
+  const auto pair = record.table("contacts").integer("pair");
+  const double reach = 0.5 * mean_diameter(record);
+  ContactLines result{{}, std::vector<std::size_t>(colours.size(), 0)};
+  for (std::size_t c = 0; c < pair.size() / 2; ++c) {
+    const auto i = static_cast<std::size_t>(pair[2 * c]), j = static_cast<std::size_t>(pair[2 * c + 1]);
+    const std::size_t k = class_of(c, i, j);
+    ++result.numbers[k];
+    if (std::abs(position[3 * i + 1] + position[3 * j + 1]) > 2 * reach) continue;
+    result.lines.push_back(
+        {{{position[3 * i], 0, position[3 * i + 2]}, {position[3 * j], 0, position[3 * j + 2]}}, colours[k], 1.4});
+  }
+  return result;
+}
+
+Picture contacts_picture(const dem::Record& record, const ContactLines& contacts,
+                         const std::vector<LegendEntry>& legend, const std::string& label, bool zoomed) {
+  render::Scene scene = specimen_scene(record, zoomed ? 480 : narrow);
+  scene.spheres.clear();
+  scene.lines = contacts.lines;
+  if (zoomed) {
+    scene.camera.frame = window(record);
+    scene.height = scene.width;
+    for (render::Polyline& line : scene.lines) line.width = 2.6;
+  }
+  return {.scene = std::move(scene), .label = label, .legend = legend};
+}
+}  // namespace
+
+FigureContent genesis_steps(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "Grain seeds are spread at random, a specimen of small particles is packed, ellipsoids mask the particles of "
+      "each grain, and "
+      "grains grow along contacts until no particle is left over.";
+  if (auto missing = missing_cases(study, test_genesis)) content.panels.push_back(*missing);
+  const dem::Record* record = first_specimen(study);
+  if (!record) return content;
+  const auto particles = static_cast<double>(record->table("particles").rows());
+  const auto grains = static_cast<double>(record->table("grains").rows());
+  const auto gaps = static_cast<double>(gaps_after(*record, 0));
+  const auto add = [&](std::string id, std::string caption, std::string alt, Picture picture) {
+    content.panels.push_back({.id = std::move(id),
+                              .caption = std::move(caption),
+                              .alt = std::move(alt),
+                              .content = std::move(picture),
+                              .per_row = 4});
+  };
+  render::Scene seeds = scene_of(*record, seeds_of(*record), false);
+  const auto frame = frame_of(size_of(*record));
+  seeds.outline = {render::Outline::Shape::cylinder, frame[0], frame[1]};
+  add("seeds", "Grain seeds in the core.", count(grains) + " spheres of four minerals spread through the cylinder.",
+      {.scene = std::move(seeds), .label = count(grains) + " seeds", .legend = mineral_legend(*record)});
+  render::Spheres bare = particles_by_mineral(*record);
+  std::ranges::fill(bare.colour, grey);
+  add("packing", "The numerical specimen.", count(particles) + " particles packed in the cylinder, of no mineral yet.",
+      {.scene = scene_of(*record, std::move(bare), false), .label = count(particles) + " particles", .legend = {}});
+  add("masked", "Masked by ellipsoids.",
+      percent(gaps / particles) + " of the particles are in no ellipsoid and drawn white.",
+      {.scene = scene_of(*record, after_round(*record, 0), false),
+       .label = count(gaps) + " gap particles",
+       .legend = with_gaps(*record)});
+  add("masked_section", "The same, cut along the axis.", "White gap particles lie between the grains.",
+      {.scene = scene_of(*record, after_round(*record, 0), true), .label = "section", .legend = with_gaps(*record)});
+  add("grown", "After growth.", "Every particle belongs to a grain.",
+      {.scene = specimen_scene(*record, narrow),
+       .label = count(grains) + " grains",
+       .legend = mineral_legend(*record)});
+  add("grown_section", "The same, cut along the axis.", "Grains of four minerals fill the section.",
+      {.scene = section_scene(*record, narrow), .label = "section", .legend = mineral_legend(*record)});
+  content.finding = fmt::format(
+      "{} seeds and {} particles; ellipsoids mask {} of the particles, {} rounds of growth give the other {} to "
+      "grains; coordination {}, "
+      "porosity {}.",
+      count(grains), count(particles), percent(1 - gaps / particles), rounds_of(*record), count(gaps),
+      number(record->result("coordination"), 3), number(record->result("porosity"), 4));
+  return content;
+}
+
+FigureContent genesis_growth(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "A gap particle that touches a particle of a grain takes its group; the step is repeated until all particles "
+      "have one.";
+  const dem::Record* record = first_specimen(study);
+  if (!record) return content;
+  const std::int32_t rounds = rounds_of(*record);
+  std::vector<std::int32_t> shown{0};
+  if (rounds > 1) shown.push_back(1);
+  if (rounds > 0) shown.push_back(rounds);
+  for (const std::int32_t round : shown) {
+    render::Scene scene = section_scene(*record, 480);
+    scene.spheres = {after_round(*record, round)};
+    scene.camera.frame = window(*record);
+    scene.height = scene.width;
+    const std::string left = count(static_cast<double>(gaps_after(*record, round)));
+    content.panels.push_back(
+        {.id = fmt::format("round_{}", round),
+         .caption = round == 0 ? "After masking." : fmt::format("After round {} of growth.", round),
+         .alt = fmt::format(
+             "A few grains in the middle of the section; {} particles of the specimen are without a grain.", left),
+         .content = Picture{.scene = std::move(scene), .label = left + " left", .legend = with_gaps(*record)},
+         .per_row = 3});
+  }
+  TextTable table{{"Round of growth", "Particles that find a grain", "Left"}, {}};
+  const auto all = record->table("particles").rows();
+  for (std::int32_t round = 0; round <= rounds; ++round) {
+    const std::size_t before = round == 0 ? all : gaps_after(*record, round - 1), after = gaps_after(*record, round);
+    table.rows.push_back({round == 0 ? "masking" : std::to_string(round), count(static_cast<double>(before - after)),
+                          count(static_cast<double>(after))});
+  }
+  content.panels.push_back(
+      {.id = "rounds", .caption = "Particles by round of growth.", .alt = "", .content = table, .per_row = 1});
+  content.finding =
+      fmt::format("{} rounds of growth; the first takes {} of the gap particles.", rounds,
+                  percent(rounds == 0 ? 0.0
+                                      : 1 - static_cast<double>(gaps_after(*record, 1)) /
+                                                static_cast<double>(std::max<std::size_t>(1, gaps_after(*record, 0)))));
+  return content;
+}
+
+FigureContent genesis_contacts(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "Contacts inside a grain take the flat joint model, those between grains the parallel bond model; their "
+      "properties follow from the "
+      "minerals at their ends.";
+  const dem::Record* record = first_specimen(study);
+  if (!record) return content;
+  const auto grain = record->table("particles").integer("grain"),
+             mineral = record->table("particles").integer("mineral");
+  const auto kind = record->table("contacts").integer("kind");
+  const auto names = minerals_of(*record);
+  std::vector<render::Colour> colours;
+  for (const std::string& name : names) colours.push_back(mineral_colour(name));
+  colours.push_back(boundary_same);
+  colours.push_back(boundary_other);
+  const ContactLines groups = contact_lines(*record, colours, [&](std::size_t, std::size_t i, std::size_t j) {
+    if (grain[i] == grain[j]) return static_cast<std::size_t>(mineral[i]);
+    return names.size() + (mineral[i] == mineral[j] ? 0 : 1);
+  });
+  const ContactLines laws =
+      contact_lines(*record, {joint_colour, bond_colour},
+                    [&](std::size_t c, std::size_t, std::size_t) { return static_cast<std::size_t>(kind[c]); });
+  const auto all = static_cast<double>(kind.size());
+  std::vector<LegendEntry> group_legend, law_legend;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    group_legend.push_back({colours[k], "inside " + names[k], count(static_cast<double>(groups.numbers[k]))});
+  }
+  group_legend.push_back(
+      {boundary_same, "between grains of one mineral", count(static_cast<double>(groups.numbers[names.size()]))});
+  group_legend.push_back(
+      {boundary_other, "between minerals", count(static_cast<double>(groups.numbers[names.size() + 1]))});
+  law_legend = {{joint_colour, "flat joint", count(static_cast<double>(laws.numbers[0]))},
+                {bond_colour, "parallel bond", count(static_cast<double>(laws.numbers[1]))}};
+  const double inter = static_cast<double>(groups.numbers[names.size()] + groups.numbers[names.size() + 1]) / all;
+  const std::string by_group = percent(inter) + " of the contacts are between grains.";
+  const std::string by_law =
+      percent(static_cast<double>(laws.numbers[1]) / all) + " of the contacts are parallel bonds.";
+  content.panels.push_back({.id = "groups",
+                            .caption = "Contacts near the section, by group.",
+                            .alt = by_group,
+                            .content = contacts_picture(*record, groups, group_legend, "groups", false),
+                            .per_row = 4});
+  content.panels.push_back({.id = "groups_near",
+                            .caption = "A few grains of it.",
+                            .alt = by_group,
+                            .content = contacts_picture(*record, groups, group_legend, "groups, enlarged", true),
+                            .per_row = 4});
+  content.panels.push_back({.id = "laws",
+                            .caption = "Contacts near the section, by law.",
+                            .alt = by_law,
+                            .content = contacts_picture(*record, laws, law_legend, "laws", false),
+                            .per_row = 4});
+  content.panels.push_back({.id = "laws_near",
+                            .caption = "A few grains of it.",
+                            .alt = by_law,
+                            .content = contacts_picture(*record, laws, law_legend, "laws, enlarged", true),
+                            .per_row = 4});
+  content.finding = by_group + " " + by_law;
+  return content;
+}
+}  // namespace reports::texture

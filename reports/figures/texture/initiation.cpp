@@ -1,0 +1,64 @@
+// The readings of crack initiation beside each other (Zhao et al. 2021, section 3.3 and Fig. 8).
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "reports/figures/table.h"
+#include "reports/figures/texture/parts.h"
+#include "reports/page/text.h"
+
+namespace reports::texture {
+namespace {
+
+struct Reading {
+  std::string_view id, name, how;
+};
+constexpr std::array readings{
+    Reading{"axial_stiffness", "Axial stiffness",
+            "Eq. 9 leaves its early plateau by the set share (measure.stiffness_departure)"},
+    Reading{"strain_0_1_percent", "Strain of 0.1 %", "the stress there; the paper's own number"},
+    Reading{"one_percent_of_cracks", "One percent of cracks", "as many cracks as 1 % of those at the peak"},
+    Reading{"crack_volumetric_strain", "Crack volumetric strain",
+            "the volumetric strain less its elastic part turns to dilation"}};
+
+std::string cell(const Spread& spread, int digits) {
+  if (spread.count == 0) return "not found";
+  return number(spread.mean, digits) + (spread.count > 1 ? " ± " + number(spread.deviation, 2) : "");
+}
+
+}  // namespace
+
+FigureContent initiation_readings(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "Crack initiation is where the axial stiffness starts to fluctuate, at about 0.1 % strain and 71.1 MPa, 34 % of "
+      "the "
+      "peak; laboratories find about 40 %.";
+  const auto cases = swept(study, test_compression);
+  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  if (cases.empty()) return content;
+  TextTable table{{"Reading", "Where", "σci (MPa)", "Share of the peak (%)"}, {}};
+  std::vector<std::string> said;
+  for (const Reading& one : readings) {
+    const Measure stress = result("crack_initiation_MPa." + std::string(one.id));
+    const Measure share = [&](const dem::Record& r) { return 100 * stress(r) / result_or_nan(r, "ucs_MPa"); };
+    const Spread found = spread_of(cases.front(), stress);
+    const Spread part = spread_of(cases.front(), share);
+    table.rows.push_back({std::string(one.name), std::string(one.how), cell(found, 3), cell(part, 3)});
+    std::string name(one.name);
+    name[0] = static_cast<char>(std::tolower(name[0]));
+    said.push_back(found.count == 0 ? "no value by " + name : fmt::format("{} MPa by {}", number(found.mean, 3), name));
+  }
+  content.panels.push_back(
+      {.id = "",
+       .caption = "Crack initiation by four readings of one test, " + cases.front().label +
+                  (cases.front().repeats.size() > 1 ? "; mean ± standard deviation of the seeds." : "."),
+       .alt = "",
+       .content = table,
+       .per_row = 1});
+  content.finding = "Crack initiation at " + cases.front().label + ": " + listed(said) + ".";
+  return content;
+}
+
+}  // namespace reports::texture

@@ -1,0 +1,394 @@
+// What a specimen is made of and how it is tested: the turn of its ellipsoids (Zhao et al. 2021, Fig. 4), the tests
+// (Fig. 7), the input parameters (Tables 1, 2 and 4), and what the texture owes to the seed and the aspect ratio
+// (section 5, Eq. 14).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "reports/figures/table.h"
+#include "reports/figures/texture/parts.h"
+#include "reports/page/text.h"
+
+namespace reports::texture {
+namespace {
+
+constexpr int narrow = 320;  // px, of pictures beside each other
+const render::Colour steel{0.45, 0.48, 0.52};
+
+render::Point turned(const render::Point& p, double dip_direction, double dip) {
+  // R_z(dip direction) R_y(-dip): the long axis x goes to (cos dip cos dd, cos dip sin dd, sin dip).
+  const double c = std::cos(dip), s = std::sin(dip), cd = std::cos(dip_direction), sd = std::sin(dip_direction);
+  const double x = c * p[0] - s * p[2], z = s * p[0] + c * p[2];
+  return {cd * x - sd * p[1], sd * x + cd * p[1], z};
+}
+
+// Principal ellipses and axes of an ellipsoid of radius 1 and aspect ratio `ar`, turned and moved.
+render::Scene ellipsoid_scene(double ar, double dip_direction, double dip, const render::Point& centre) {
+  const double lambda = std::cbrt(ar), a = lambda * lambda, b = 1 / lambda;
+  const auto place = [&](const render::Point& p) {
+    const render::Point t = turned(p, dip_direction, dip);
+    return render::Point{t[0] + centre[0], t[1] + centre[1], t[2] + centre[2]};
+  };
+  render::Scene scene;
+  const render::Colour shell{0.45, 0.55, 0.65};
+  const auto ellipse = [&](auto at, const render::Colour& colour, double width) {
+    render::Polyline line{{}, colour, width};
+    for (int k = 0; k <= 96; ++k) line.points.push_back(place(at(2 * std::numbers::pi * k / 96)));
+    scene.lines.push_back(std::move(line));
+  };
+  for (const double h : {-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75}) {  // circles of latitude about the long axis
+    const double r = b * std::sqrt(1 - h * h);
+    ellipse(
+        [&](double t) {
+          return render::Point{a * h, r * std::cos(t), r * std::sin(t)};
+        },
+        shell, h == 0 ? 2.4 : 1.2);
+  }
+  for (int k = 0; k < 6; ++k) {  // meridians
+    const double angle = std::numbers::pi * k / 6;
+    ellipse(
+        [&](double t) {
+          return render::Point{a * std::cos(t), b * std::sin(t) * std::cos(angle), b * std::sin(t) * std::sin(angle)};
+        },
+        shell, k % 3 == 0 ? 2.4 : 1.2);
+  }
+  const auto axis = [&](const render::Point& end, const render::Colour& colour, bool own) {
+    const render::Point from = own ? place({-end[0], -end[1], -end[2]}) : render::Point{0, 0, 0};
+    scene.lines.push_back(
+        {{from, own ? place(end) : end}, colour, own ? 3.5 : 2.5, own ? render::Line::dash : render::Line::solid});
+  };
+  axis({1.25 * a, 0, 0}, {0.75, 0.05, 0.05}, true);
+  axis({0, 1.25 * b, 0}, {0.66, 0.46, 0.0}, true);
+  axis({0, 0, 1.25 * b}, {0.66, 0.46, 0.0}, true);
+  const double reach = 2.1;
+  axis({reach, 0, 0}, {0, 0, 0}, false);
+  axis({0, reach, 0}, {0.35, 0.35, 0.35}, false);
+  axis({0, 0, reach}, {0.6, 0.6, 0.6}, false);
+  scene.camera.direction = {0.55, 0.75, -0.37};
+  scene.camera.frame = {{{-1.3, -1.3, -1.1}, {1.6, 1.6, 1.7}}};
+  scene.width = 400;
+  scene.height = 360;
+  return scene;
+}
+
+double degrees(double radians) { return radians * 180 / std::numbers::pi; }
+
+// A solid cylinder as a stack of discs.
+render::Discs cylinder(double radius, double low, double high, const render::Colour& colour) {
+  render::Discs discs;
+  constexpr int layers = 40;
+  for (int k = 0; k <= layers; ++k) {
+    discs.centre.push_back({0, 0, low + (high - low) * k / layers});
+    discs.normal.push_back({0, 0, 1});
+    discs.radius.push_back(radius);
+    discs.colour.push_back(colour);
+  }
+  return discs;
+}
+
+render::Scene setup_scene(const dem::Record& record, bool section) {
+  render::Scene scene = section ? section_scene(record, narrow) : specimen_scene(record, narrow);
+  const Size size = size_of(record);
+  const double half = 0.72 * size.diameter, margin = 0.16 * size.height;
+  scene.camera.frame = {{{-half, -half, size.z_low - margin}, {half, half, size.z_low + size.height + margin}}};
+  if (!section) scene.camera.direction = {0, -0.97, -0.24};
+  return scene;
+}
+
+/// Specimens alike in all but their seed.
+struct Group {
+  std::string label;
+  std::vector<const dem::Record*> records;
+};
+std::vector<Group> groups_of(const StudyResult& study) {
+  std::vector<Group> groups;
+  for (const CaseResult& one : study.cases) {
+    if (!one.record || one.record->text("test") != test_genesis) continue;
+    const dem::Record& r = *one.record;
+    std::string label = "AR " + shortest(r.number("aspect_ratio"));
+    if (r.number("dip") != 0) label += ", dip " + shortest(r.number("dip")) + "°";
+    if (r.number("seed_scale") != 1) label += ", seeds × " + shortest(r.number("seed_scale"));
+    if (r.text("growth") != "most_contacts") label += ", growth by " + words(r.text("growth"));
+    const auto found = std::ranges::find(groups, label, &Group::label);
+    if (found == groups.end())
+      groups.push_back({label, {&r}});
+    else
+      found->records.push_back(&r);
+  }
+  return groups;
+}
+
+std::string spread_text(const Group& group, std::string_view name, double factor, int places) {
+  std::vector<double> values;
+  for (const dem::Record* r : group.records) values.push_back(factor * result_or_nan(*r, name));
+  const auto n = static_cast<double>(values.size());
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  double square = 0;
+  for (const double v : values) square += (v - mean) * (v - mean);
+  std::string text = fixed(mean, places);
+  if (n > 1) text += " ± " + fixed(std::sqrt(square / (n - 1)), places);
+  return text;
+}
+
+// Surface of an ellipsoid of revolution over that of the sphere of its volume; and what Eq. 14 gives for it.
+double exact_surface(double ar) {
+  if (ar < 1 + 1e-9) return 1;
+  const double lambda = std::cbrt(ar), a = lambda * lambda, b = 1 / lambda, e = std::sqrt(1 - b * b / (a * a));
+  return 0.5 * b * b * (1 + a / (b * e) * std::asin(e));
+}
+double published_surface(double ar) {
+  const double lambda = std::cbrt(ar);
+  return 2.0 / 3 * lambda + 1.0 / 3 / (lambda * lambda);
+}
+
+}  // namespace
+
+FigureContent ellipsoid_turns(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "The ellipsoid is made along x, turned about z by the dip direction, about y by the dip, and moved to its seed "
+      "(Eqs. 3 to 6).";
+  const dem::Record* record = first_specimen(study);
+  if (!record || !study.scenario) return content;
+  double dip = study.scenario->real("texture.dip"), direction = study.scenario->real("texture.dip_direction");
+  const bool example = dip == 0 && direction == 0;
+  if (example) dip = 35 * std::numbers::pi / 180, direction = 40 * std::numbers::pi / 180;
+  constexpr double ar = 2;
+  const std::vector<LegendEntry> legend{{{0.75, 0.05, 0.05}, "long axis, 2a"},
+                                        {{0.66, 0.46, 0.0}, "short axes, 2b = 2c"},
+                                        {{0, 0, 0}, "x"},
+                                        {{0.35, 0.35, 0.35}, "y"},
+                                        {{0.6, 0.6, 0.6}, "z"}};
+  const auto add = [&](const char* id, const std::string& caption, double dd, double d, const render::Point& centre) {
+    content.panels.push_back(
+        {.id = id,
+         .caption = caption,
+         .alt = caption,
+         .content =
+             Picture{.scene = ellipsoid_scene(ar, dd, d, centre), .label = "", .legend = legend, .scale_bar = false},
+         .per_row = 4});
+  };
+  const std::string about_z = shortest(degrees(direction)) + "°", about_y = shortest(degrees(dip)) + "°";
+  add("made", "Along x.", 0, 0, {0, 0, 0});
+  add("dip_direction", "Turned about z by " + about_z + ".", direction, 0, {0, 0, 0});
+  add("dip", "Turned by the dip of " + about_y + ".", direction, dip, {0, 0, 0});
+  add("moved", "Moved to the seed.", direction, dip, {0.6, 0.4, 0.7});
+  // The same turn as the genesis makes it.
+  const auto axis = record->table("grains").real("axis");
+  const render::Point ours =
+      turned({1, 0, 0}, study.scenario->real("texture.dip_direction"), study.scenario->real("texture.dip"));
+  double apart = 0;
+  for (std::size_t i = 0; i < 3 && axis.size() >= 3; ++i) apart = std::max(apart, std::abs(axis[i] - ours[i]));
+  content.finding = fmt::format("{}The long axes of the specimen’s grains differ from this turn by {}.",
+                                example ? "Angles are an example; the aspect ratio is 2. " : "",
+                                apart < 1e-15 ? "nothing" : number(apart, 2));
+  return content;
+}
+
+FigureContent test_setups(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "Specimens are pressed between platens and pulled by discs of particles at their ends; sections run through the "
+      "axis.";
+  const dem::Record* record = first_specimen(study);
+  if (!record || !study.scenario) return content;
+  const Size size = size_of(*record);
+  const double thickness = 0.04 * size.height, radius = 0.62 * size.diameter;
+  const double grip = study.scenario->real("direct_tension.grip") * size.height;
+  render::Scene pressed = setup_scene(*record, false);
+  pressed.discs.push_back(cylinder(radius, size.z_low - thickness, size.z_low, steel));
+  pressed.discs.push_back(cylinder(radius, size.z_low + size.height, size.z_low + size.height + thickness, steel));
+  std::vector<LegendEntry> with_platens = mineral_legend(*record), with_grips = with_platens;
+  with_platens.push_back({steel, "platens"});
+  content.panels.push_back(
+      {.id = "compression",
+       .caption = "Pressed by two platens.",
+       .alt = "The specimen between two platens.",
+       .content = Picture{.scene = std::move(pressed), .label = "compression", .legend = with_platens},
+       .per_row = 4});
+  render::Scene pulled = setup_scene(*record, false);
+  std::size_t gripped = 0;
+  for (std::size_t i = 0; i < pulled.spheres[0].centre.size(); ++i) {
+    const double z = pulled.spheres[0].centre[i][2] - size.z_low;
+    if (z > grip && z < size.height - grip) continue;
+    pulled.spheres[0].colour[i] = steel;
+    ++gripped;
+  }
+  with_grips.push_back({steel, "gripped discs"});
+  content.panels.push_back(
+      {.id = "direct_tension",
+       .caption = "Pulled by its ends.",
+       .alt = fmt::format("Discs of {:.2f} mm at both ends, {} particles, are gripped.", 1e3 * grip, gripped),
+       .content = Picture{.scene = std::move(pulled), .label = "direct tension", .legend = with_grips},
+       .per_row = 4});
+  content.panels.push_back(
+      {.id = "section",
+       .caption = "Cut along its axis.",
+       .alt = "The specimen cut along its axis.",
+       .content = Picture{.scene = setup_scene(*record, true), .label = "section", .legend = mineral_legend(*record)},
+       .per_row = 4});
+  content.finding =
+      fmt::format("Specimen of {:g} mm × {:g} mm; gripped discs are {:g} mm thick and hold {} particles.",
+                  1e3 * size.diameter, 1e3 * size.height, 1e3 * grip, count(static_cast<double>(gripped)));
+  return content;
+}
+
+FigureContent input_parameters(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "Four groups of parameters define a specimen: grain seeds, particles, materials, and their interaction at grain "
+      "boundaries.";
+  if (!study.scenario) return content;
+  const dem::Scenario& s = *study.scenario;
+  const std::size_t minerals = s.count("mineral");
+  const auto mineral = [&](std::size_t m, const char* name) { return s.real(fmt::format("mineral[{}].{}", m, name)); };
+  TextTable common{{"Group", "Parameter", "Symbol", "Value"}, {}};
+  const auto row = [&](const char* group, const char* name, const char* symbol, const std::string& value) {
+    common.rows.push_back({group, name, symbol, value});
+  };
+  std::vector<std::string> aspect;
+  for (const SeriesCase& item : swept(study, test_genesis))
+    aspect.push_back(shortest(item.record->number("aspect_ratio")));
+  row("grain seeds", "number of minerals", "Nₘ", std::to_string(minerals));
+  row("grain seeds", "factor on their diameters", "", shortest(s.real("texture.seed_scale")));
+  row("particles", "aspect ratios of grains", "AR = λ³",
+      aspect.empty() ? shortest(s.real("texture.aspect_ratio")) : joined(aspect, ", "));
+  row("particles", "dip direction", "θ_z", shortest(degrees(s.real("texture.dip_direction"))) + "°");
+  row("particles", "dip", "θ_y", shortest(degrees(s.real("texture.dip"))) + "°");
+  row("particles", "smallest radius", "R_min", shortest(1e3 * s.real("packing.minimum_radius")) + " mm");
+  row("particles", "largest over smallest radius", "R_max/R_min", shortest(s.real("packing.radius_ratio")));
+  row("particles", "modulus while packing", "E*", shortest(1e-9 * s.real("packing.modulus")) + " GPa");
+  row("particles", "material pressure over modulus (not in the paper)", "", shortest(s.real("packing.pressure_ratio")));
+  row("interaction", "modulus", "α_E", shortest(s.real("interaction.modulus")));
+  row("interaction", "stiffness ratio", "α_k", shortest(s.real("interaction.stiffness_ratio")));
+  row("interaction", "friction", "α_μ", shortest(s.real("interaction.friction")));
+  row("interaction", "tensile strength", "α_t", shortest(s.real("interaction.tensile_strength")));
+  row("interaction", "cohesion", "α_C", shortest(s.real("interaction.cohesion")));
+  row("interaction", "friction angle", "α_φ", shortest(s.real("interaction.friction_angle")));
+  content.panels.push_back({.id = "common",
+                            .caption = "Parameters of the specimen (Tables 1 and 4).",
+                            .alt = "",
+                            .content = common,
+                            .per_row = 1});
+
+  TextTable by_mineral{{"Material"}, {}};
+  for (std::size_t m = 0; m < minerals; ++m) by_mineral.head.push_back(s.text(fmt::format("mineral[{}].name", m)));
+  const auto add = [&](const char* name, const char* key, double factor) {
+    std::vector<std::string> cells{name};
+    for (std::size_t m = 0; m < minerals; ++m) cells.push_back(shortest(factor * mineral(m, key)));
+    by_mineral.rows.push_back(std::move(cells));
+  };
+  add("share Cₘ (%)", "share", 100);
+  add("D_min (mm)", "diameter_min", 1e3);
+  add("D_max (mm)", "diameter_max", 1e3);
+  add("density ρ (kg/m³)", "density", 1);
+  add("modulus E_c (GPa)", "modulus", 1e-9);
+  add("stiffness ratio k_c", "stiffness_ratio", 1);
+  add("friction μ_c", "friction", 1);
+  add("bonded modulus E_b (GPa)", "bond_modulus", 1e-9);
+  add("bonded stiffness ratio k_b", "bond_stiffness_ratio", 1);
+  add("tensile strength σ_t,b (MPa)", "tensile_strength", 1e-6);
+  add("cohesion C_b (MPa)", "cohesion", 1e-6);
+  add("friction angle φ_b (°)", "friction_angle", 180 / std::numbers::pi);
+  content.panels.push_back(
+      {.id = "minerals", .caption = "Materials (Table 4).", .alt = "", .content = by_mineral, .per_row = 1});
+
+  // Table 2: what laboratories measured; the calibration aims at it, nothing here is fitted to it.
+  TextTable laboratory{{"Lac du Bonnet granite in the laboratory", "Value"}, {}};
+  for (const PublishedNumber& one : study.published) {
+    if (one.source != "Table 2") continue;
+    laboratory.rows.push_back({one.quantity + (one.unit.empty() ? "" : " (" + one.unit + ")"),
+                               shortest(one.low) + (one.high > one.low ? "–" + shortest(one.high) : "")});
+  }
+  if (!laboratory.rows.empty()) {
+    content.panels.push_back({.id = "laboratory",
+                              .caption = "Targets of the calibration (Table 2), as published.",
+                              .alt = "",
+                              .content = laboratory,
+                              .per_row = 1});
+  }
+  double density = 0;
+  for (std::size_t m = 0; m < minerals; ++m) density += mineral(m, "share") * mineral(m, "density");
+  content.finding =
+      fmt::format("The minerals’ densities, weighted by their shares, give {} kg/m³ for the rock.", number(density, 4));
+  return content;
+}
+
+FigureContent texture_by_seed(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "With the aspect ratio from 1 to 3 the share of contacts between grains rises from 55 to 60 %, because an "
+      "ellipsoid has more surface "
+      "than the sphere of its volume (Eq. 14); shares of minerals stay.";
+  if (auto missing = missing_cases(study, test_genesis)) content.panels.push_back(*missing);
+  const auto cases = swept(study, test_genesis);
+  if (cases.empty()) return content;
+  const Measure share = result("inter_grain_share", 100);
+  TextTable table{{"Specimen", "Seeds", "Contacts between grains (%)", "Coordination", "Porosity", "Particles",
+                   "Grains", "Gap particles (%)", "Rounds"},
+                  {}};
+  for (const Group& group : groups_of(study)) {
+    table.rows.push_back({group.label, std::to_string(group.records.size()),
+                          spread_text(group, "inter_grain_share", 100, 2), spread_text(group, "coordination", 1, 3),
+                          spread_text(group, "porosity", 1, 4), spread_text(group, "particles", 1, 0),
+                          spread_text(group, "grains", 1, 0), spread_text(group, "gap_share", 100, 1),
+                          spread_text(group, "growth_rounds", 1, 1)});
+  }
+  if (swept_axis(study).parameter == "aspect_ratio" && cases.size() > 1) {
+    render::Chart chart;
+    chart.x.title = "Aspect ratio";
+    chart.x.low = cases.front().value - 0.2;
+    chart.x.high = cases.back().value + 0.2;
+    chart.left.title = "Contacts between grains (%)";
+    render::Series ours = means(cases, share);
+    ours.label = "this study, mean and standard deviation over seeds";
+    ours.marker = render::Marker::circle;
+    chart.series.push_back(ours);
+    const double base = spread_of(cases.front(), share).mean;
+    const auto line = [&](const char* label, double (*surface)(double), render::Line kind, std::size_t colour) {
+      const double first = cases.front().value;
+      render::Series series = line_of(
+          first, cases.back().value, [&](double ar) { return base * surface(ar) / surface(first); }, 40);
+      series.label = label;
+      series.colour = render::palette(colour);
+      series.line = kind;
+      chart.series.push_back(series);
+    };
+    line("in proportion to the surface of the ellipsoid", exact_surface, render::Line::dash, 1);
+    line("in proportion to Eq. 14", published_surface, render::Line::dot, 2);
+    chart.legend = render::Chart::Legend::below;
+    chart.width = 640;
+    chart.height = 420;
+    content.panels.push_back({.id = "share",
+                              .caption = "Share of contacts between grains against the aspect ratio.",
+                              .alt = by_case(cases, share, 3, "%"),
+                              .content = chart,
+                              .per_row = 1});
+    const double last = cases.back().value;
+    content.finding = fmt::format(
+        "The share {}. From AR {} to {} it grows by a factor of {}; the surface of the ellipsoid by {} (exact), {} by "
+        "Eq. 14, which is a mean "
+        "of sections and not the surface. ",
+        trend_words(cases, share, "points", swept_axis(study)), shortest(cases.front().value), shortest(last),
+        number(spread_of(cases.back(), share).mean / base, 4),
+        number(exact_surface(last) / exact_surface(cases.front().value), 4),
+        number(published_surface(last) / published_surface(cases.front().value), 4));
+  }
+  content.panels.push_back(
+      {.id = "table", .caption = "Mean and standard deviation over seeds.", .alt = "", .content = table, .per_row = 1});
+  const Spread at_base = spread_of(cases.front(), share);
+  if (at_base.count > 1) {
+    content.finding += fmt::format(
+        "Over {} seeds the share scatters by {} percentage points, the coordination by {}, the porosity by {}.",
+        at_base.count, number(at_base.deviation, 2),
+        number(spread_of(cases.front(), result("coordination")).deviation, 2),
+        number(spread_of(cases.front(), result("porosity")).deviation, 2));
+  }
+  return content;
+}
+
+}  // namespace reports::texture

@@ -1,0 +1,148 @@
+// The four minerals alone: moduli and strengths (Zhao et al. 2021, Table 3) and their envelopes (Fig. 6).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "reports/envelopes.h"
+#include "reports/figures/table.h"
+#include "reports/figures/texture/parts.h"
+#include "reports/page/text.h"
+
+namespace reports::texture {
+namespace {
+
+/// The calibrated values of a mineral (Table 3); NaN for one that the paper has not.
+struct Published {
+  double young_modulus, tensile_strength, ucs, m;  ///< GPa, MPa, MPa, -
+};
+
+Published published_of(const StudyResult& study, std::string mineral) {
+  std::ranges::replace(mineral, ' ', '_');
+  const auto value = [&](const char* quantity) { return study.published_value(mineral + "_" + quantity); };
+  return {value("young_modulus"), value("tensile_strength"), value("ucs"), value("m")};
+}
+
+std::vector<std::string> minerals_tested(const StudyResult& study) {
+  std::vector<std::string> found;
+  for (const CaseResult& one : study.cases) {
+    if (!one.record) continue;
+    const auto parameter = std::ranges::find(one.record->parameters, "mineral", [](const auto& p) { return p.first; });
+    if (parameter == one.record->parameters.end()) continue;
+    const auto* name = std::get_if<std::string>(&parameter->second);
+    if (name && !name->empty() && std::ranges::find(found, *name) == found.end()) found.push_back(*name);
+  }
+  return found;
+}
+
+Spread of_first(const std::vector<SeriesCase>& cases, const Measure& value) {
+  return cases.empty() ? Spread{.mean = std::nan("")} : spread_of(cases.front(), value);
+}
+
+std::string beside(const Spread& ours, double theirs, int digits) {
+  if (ours.count == 0) return std::isfinite(theirs) ? "– / " + shortest(theirs) : "–";
+  return number(ours.mean, digits) + (ours.count > 1 ? " ± " + number(ours.deviation, 2) : "") +
+         (std::isfinite(theirs) ? " / " + shortest(theirs) : "");
+}
+
+}  // namespace
+
+FigureContent mineral_properties(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "Each mineral alone, in a specimen of about 2000 particles, was calibrated to a modulus, a tensile strength, a "
+      "compressive strength and a Hoek-Brown m.";
+  add_missing(content, study, {test_compression, test_tension});
+  TextTable table{{"Mineral", "E (GPa)", "TS (MPa)", "UCS (MPa)", "m (95 % interval)"}, {}};
+  std::vector<std::string> said;
+  for (const std::string& mineral : minerals_tested(study)) {
+    const StudyResult part = of_mineral(study, mineral);
+    const auto pressed = series_of(part, test_compression, confining_axis);
+    const auto pulled = series_of(part, test_tension, confining_axis);
+    const Published theirs = published_of(study, mineral);
+    const Spread modulus = of_first(pressed, result("young_modulus_GPa")), ucs = of_first(pressed, result("ucs_MPa"));
+    const Spread ts = of_first(pulled, result("tensile_strength_MPa"));
+    const auto m = envelopes_of(study, mineral).find("peak.m");
+    table.rows.push_back(
+        {mineral, beside(modulus, theirs.young_modulus, 3), beside(ts, theirs.tensile_strength, 3),
+         beside(ucs, theirs.ucs, 4),
+         (m ? estimate_text(*m, 3, true) : "–") + (std::isfinite(theirs.m) ? " / " + shortest(theirs.m) : "")});
+    std::vector<std::string> parts;
+    const auto share = [&](const char* name, double ours, double published_value) {
+      if (std::isfinite(ours) && std::isfinite(published_value)) {
+        parts.push_back(fmt::format("{} {} of the published", name, percent(ours / published_value, 0)));
+      }
+    };
+    share("E", modulus.mean, theirs.young_modulus);
+    share("TS", ts.mean, theirs.tensile_strength);
+    share("UCS", ucs.mean, theirs.ucs);
+    if (m) share("m", m->value, theirs.m);
+    if (!parts.empty()) said.push_back(mineral + ": " + joined(parts, ", "));
+  }
+  if (table.rows.empty()) return content;
+  content.panels.push_back({.id = "",
+                            .caption = "Ours / published (Table 3, calibrated values).",
+                            .alt = "",
+                            .content = table,
+                            .per_row = 1});
+  content.finding = joined(said, "; ") + (said.empty() ? "" : ".");
+  if (!content.finding.empty()) content.finding[0] = static_cast<char>(std::toupper(content.finding[0]));
+  return content;
+}
+
+FigureContent mineral_envelopes(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "Peak stresses of the four minerals against confining pressure, with fitted Hoek-Brown envelopes; quartz is the "
+      "strongest, biotite the weakest.";
+  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  render::Chart chart;
+  chart.x.title = confining_axis.title;
+  chart.left.title = "Peak axial stress σ₁ (MPa)";
+  chart.left.low = 0;
+  constexpr std::array markers{render::Marker::circle, render::Marker::square, render::Marker::triangle,
+                               render::Marker::diamond};
+  std::vector<std::string> said;
+  std::size_t index = 0;
+  for (const std::string& mineral : minerals_tested(study)) {
+    const Envelopes found = envelopes_of(study, mineral);
+    if (found.peak.sigma_3.empty()) continue;
+    const render::Colour colour = render::palette(index);
+    chart.series.push_back({.label = mineral,
+                            .x = found.peak.sigma_3,
+                            .y = found.peak.sigma_1,
+                            .colour = colour,
+                            .line = render::Line::none,
+                            .marker = markers[index++ % markers.size()],
+                            .y_error = {}});
+    const double high = std::ranges::max(found.peak.sigma_3);
+    const auto line = [&](render::Line kind, const auto& at) {
+      render::Series series = line_of(0, high, at);
+      series.colour = colour;
+      series.line = kind;
+      if (!series.x.empty()) chart.series.push_back(series);
+    };
+    if (found.peak_fit) {
+      line(render::Line::solid, [&](double x) { return found.peak_fit->at(x); });
+      said.push_back(fmt::format("{} m {}", mineral, estimate_text(found.peak_fit->m, 3)));
+    }
+    const Published theirs = published_of(study, mineral);
+    if (high > 0) line(render::Line::dot, [&](double x) { return analysis::hoek_brown(x, theirs.ucs, theirs.m, 1); });
+  }
+  if (chart.series.empty()) return content;
+  chart.legend = render::Chart::Legend::below;
+  chart.width = 640;
+  chart.height = 440;
+  const std::string fits =
+      said.empty() ? "Too few pressures for a fit." : "Fitted with σc = UCS: " + joined(said, "; ") + ".";
+  content.panels.push_back({.id = "",
+                            .caption = "Peak stresses of the minerals; solid: our fits with σc = UCS and s = 1; "
+                                       "dotted: envelopes with UCS and m of Table 3.",
+                            .alt = fits,
+                            .content = chart});
+  content.finding = fits;
+  return content;
+}
+
+}  // namespace reports::texture

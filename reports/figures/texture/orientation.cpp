@@ -1,0 +1,192 @@
+// Whether the specimen splits along its axis or shears: directions of cracks and the band that holds most of them, by
+// confining pressure (Zhao et al. 2021, sections 3.3 and 6, put in numbers).
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "reports/figures/table.h"
+#include "reports/figures/texture/parts.h"
+#include "engine/analysis/orientation.h"
+#include "reports/page/text.h"
+
+namespace reports::texture {
+namespace {
+
+constexpr double band_diameters = 5;  // thickness of the band in mean particle diameters
+
+// The first crack after the peak; all of them where fewer than fifty follow.
+std::size_t first_after_peak(const dem::Record& record) {
+  const dem::Table& cracks = record.table("cracks");
+  const auto strain = cracks.real("strain");
+  const double peak = result_or_nan(record, "peak_strain");
+  std::size_t first = 0;
+  while (first < strain.size() && !(strain[first] >= peak)) ++first;
+  return strain.size() - first < 50 ? 0 : first;
+}
+
+/// The densest band of the cracks after the peak, and the largest excess that cracks at random have.
+struct Band {
+  analysis::BandFit fit;
+  double at_random = 0;
+};
+
+// `draws` 0: without the comparison.
+Band band_of(const dem::Record& record, int draws) {
+  const dem::Table& cracks = record.table("cracks");
+  const dem::Table& particles = record.table("particles");
+  const Size size = size_of(record);
+  const double middle = size.z_low + 0.5 * size.height;
+  const auto centred = [&](std::span<const double> points, std::size_t first) {
+    std::vector<double> moved(points.begin() + static_cast<std::ptrdiff_t>(3 * first), points.end());
+    for (std::size_t i = 2; i < moved.size(); i += 3) moved[i] -= middle;
+    return moved;
+  };
+  const std::size_t first = first_after_peak(record);
+  const auto radius = particles.real("radius");
+  std::vector<double> volume;
+  double mean = 0;
+  for (const double r : radius) {
+    volume.push_back(r * r * r);
+    mean += 2 * r / static_cast<double>(radius.size());
+  }
+  const auto places = centred(particles.real("position"), 0);
+  const auto area = cracks.real("area").subspan(first);
+  const double thickness = band_diameters * mean;
+  return {analysis::densest_band(centred(cracks.real("position"), first), area, places, volume, thickness),
+          draws > 0 ? analysis::excess_at_random(cracks.integer("contact").subspan(first), area, places, volume, thickness, draws)
+                    : 0};
+}
+
+render::Chart angle_chart(const std::vector<SeriesCase>& cases) {
+  render::Chart chart;
+  chart.x.title = "Angle between crack and loading axis (°)";
+  chart.left.title = "Share of the crack area (%)";
+  chart.left.low = 0;
+  chart.x.low = 0;
+  chart.x.high = 90;
+  render::Series random{
+      .label = "random", .x = {}, .y = {}, .colour = {0.5, 0.5, 0.5}, .line = render::Line::dot, .y_error = {}};
+  for (const SeriesCase& item : cases) {
+    const analysis::Orientation found = analysis::orientation_of(item.record->table("cracks"), 0);
+    if (!(found.area > 0)) continue;
+    render::Series series;
+    series.label = item.label;
+    series.colour = item.colour;
+    series.line = item.line;
+    const bool first = random.x.empty();
+    for (std::size_t k = 0; k < found.share.size(); ++k) {
+      const double from = found.width * static_cast<double>(k), to = from + found.width;
+      series.x.push_back(0.5 * (from + to));
+      series.y.push_back(100 * found.share[k]);
+      if (!first) continue;
+      random.x.push_back(0.5 * (from + to));
+      random.y.push_back(100 * (std::sin(to * std::numbers::pi / 180) - std::sin(from * std::numbers::pi / 180)));
+    }
+    chart.series.push_back(series);
+  }
+  if (!random.x.empty()) chart.series.push_back(random);
+  chart.legend = render::Chart::Legend::below;
+  chart.width = 440;
+  chart.height = 380;
+  return chart;
+}
+
+}  // namespace
+
+FigureContent crack_orientation(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "With confining pressure the failure mode turns from axial splitting to shear. The paper shows it by crack maps "
+      "and gives no measure.";
+  const auto cases = swept(study, test_compression);
+  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  if (cases.empty()) return content;
+  const auto mean_angle = [](int mode) {
+    return [mode](const dem::Record& r) { return analysis::orientation_of(r.table("cracks"), 0, mode).mean; };
+  };
+  const auto inclination = [](const dem::Record& r) { return band_of(r, 0).fit.inclination; };
+  const Axis& axis = swept_axis(study);
+  TextTable table{
+      {"Case", "Mean angle, all (°)", "Tension cracks (°)", "Shear cracks (°)", "Within 30° of the axis (%)",
+       "Shear, of the crack area (%)", "Band’s angle to the axis (°)", "Crack density in the band over the mean",
+       "Cracks in the band beyond its volume (%)", "Largest of five random placings (%)"},
+      {}};
+  const auto shown = [](double value, int digits) {
+    return std::isfinite(value) ? number(value, digits) : std::string("none");
+  };
+  render::Series angles{.label = "mean angle of cracks",
+                        .x = {},
+                        .y = {},
+                        .colour = render::palette(0),
+                        .marker = render::Marker::circle,
+                        .y_error = {}};
+  render::Series bands{.label = "band with most cracks",
+                       .x = {},
+                       .y = {},
+                       .colour = render::palette(1),
+                       .line = render::Line::dash,
+                       .marker = render::Marker::square,
+                       .y_error = {}};
+  std::vector<std::string> said, standing;
+  for (const SeriesCase& item : cases) {
+    const dem::Table& cracks = item.record->table("cracks");
+    const analysis::Orientation all = analysis::orientation_of(cracks, 0), tension = analysis::orientation_of(cracks, 0, 0),
+                      shear = analysis::orientation_of(cracks, 0, 1);
+    const auto [band, at_random] = band_of(*item.record, 5);
+    table.rows.push_back({item.label, shown(all.mean, 3), shown(tension.mean, 3), shown(shear.mean, 3),
+                          shown(100 * all.along, 3), shown(100 * shear.area / all.area, 2), shown(band.inclination, 2),
+                          shown(band.concentration(), 2), shown(100 * band.excess(), 2), shown(100 * at_random, 2)});
+    if (band.excess() > at_random) standing.push_back(item.label);
+    if (!(all.area > 0)) continue;
+    angles.x.push_back(item.value);
+    angles.y.push_back(all.mean);
+    bands.x.push_back(item.value);
+    bands.y.push_back(band.inclination);
+    said.push_back(fmt::format("{}: {}° and {}°", item.label, number(all.mean, 3), number(band.inclination, 2)));
+  }
+  content.panels.push_back(
+      {.id = "angles",
+       .caption = "Directions of all cracks at the end of loading, by area; 0° is splitting along the axis. Dotted: "
+                  "directions at random.",
+       .alt = "Mean angles of the cracks to the axis: " + by_case(cases, mean_angle(-1), 3, "°") + ".",
+       .content = angle_chart(cases),
+       .per_row = 2});
+  if (!angles.x.empty()) {
+    render::Chart chart;
+    chart.x.title = axis.title;
+    chart.left.title = "Angle to the loading axis (°)";
+    chart.left.low = 0;
+    chart.left.high = 90;
+    chart.series = {angles, bands};
+    chart.legend = render::Chart::Legend::below;
+    chart.width = 440;
+    chart.height = 380;
+    content.panels.push_back(
+        {.id = "band",
+         .caption = fmt::format("Mean angle of the cracks, and angle of the band, {:g} mean particle diameters thick, "
+                                "with most cracks after the peak beyond its share of the volume.",
+                                band_diameters),
+         .alt = "Mean angle of cracks and angle of the band: " + joined(said, "; ") + ".",
+         .content = chart,
+         .per_row = 2});
+  }
+  content.panels.push_back({.id = "table",
+                            .caption = "Directions of cracks and the band with most of them. Directions at random have "
+                                       "a mean of 32.7° and half of the area within 30°.",
+                            .alt = "",
+                            .content = table,
+                            .per_row = 1});
+  content.finding =
+      "Mean angle of the cracks to the axis, and angle of the band with most cracks: " + joined(said, "; ") + ".";
+  content.finding += standing.empty() ? " No band holds more cracks than one of cracks placed at random does."
+                                      : " The band holds more cracks than one of cracks placed at random does at " +
+                                            listed(standing) + ".";
+  if (cases.size() > 2) {
+    content.finding += " The mean angle " + trend_words(cases, mean_angle(-1), "°", axis) + "; the band’s " +
+                       trend_words(cases, inclination, "°", axis) + ".";
+  }
+  return content;
+}
+
+}  // namespace reports::texture

@@ -1,0 +1,301 @@
+#include "reports/figures/texture/parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <numeric>
+#include <set>
+#include <sstream>
+
+#include "reports/page/text.h"
+
+namespace reports::texture {
+namespace {
+
+// A tone for each grain: 0.90 to 1.06 of its mineral's colour.
+double tone(std::int32_t grain) {
+  std::uint32_t bits = static_cast<std::uint32_t>(grain) * 2654435761U;
+  bits ^= bits >> 15U;
+  return 0.90 + 0.16 * static_cast<double>(bits % 1024U) / 1023.0;
+}
+
+render::Colour toned(const render::Colour& colour, double factor) {
+  return {std::min(1.0, colour.red * factor), std::min(1.0, colour.green * factor),
+          std::min(1.0, colour.blue * factor)};
+}
+
+/// The cracks table, read once.
+struct Cracks {
+  std::span<const double> position, normal, area;
+  std::span<const std::int32_t> place, mode;
+  std::size_t count = 0;
+};
+
+Cracks cracks_of(const dem::Record& record, std::size_t count) {
+  const dem::Table& table = record.table("cracks");
+  return {table.real("position"), table.real("normal"),  table.real("area"),
+          table.integer("place"), table.integer("mode"), std::min(count, table.rows())};
+}
+
+std::size_t class_of(const Cracks& cracks, std::size_t i) {
+  const auto& classes = crack_classes();
+  const auto found = std::ranges::find_if(
+      classes, [&](const CrackClass& c) { return c.place == cracks.place[i] && c.mode == cracks.mode[i]; });
+  return static_cast<std::size_t>(found - classes.begin());
+}
+
+std::vector<LegendEntry> crack_legend(const std::array<std::size_t, 4>& numbers) {
+  std::vector<LegendEntry> legend;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const CrackClass& one = crack_classes()[k];
+    legend.push_back({one.colour, std::string(one.name), count(static_cast<double>(numbers[k]))});
+  }
+  return legend;
+}
+
+// Half a mean particle diameter to either side: the slab that the cut particles stand for.
+double section_reach(const dem::Record& record) { return 0.5 * mean_diameter(record); }
+
+bool near_section(const Cracks& cracks, std::size_t i, double distance) {
+  return std::abs(cracks.position[3 * i + 1]) <= distance;
+}
+
+std::array<std::size_t, 4> numbers_in_section(const dem::Record& record, std::size_t count) {
+  const Cracks cracks = cracks_of(record, count);
+  const double distance = section_reach(record);
+  std::array<std::size_t, 4> numbers{};
+  for (std::size_t i = 0; i < cracks.count; ++i) {
+    const std::size_t k = class_of(cracks, i);
+    if (k < numbers.size() && near_section(cracks, i, distance)) ++numbers[k];
+  }
+  return numbers;
+}
+
+}  // namespace
+
+std::array<render::Point, 2> frame_of(const Size& size) {
+  const double half = 0.5 * size.diameter;
+  return {{{-half, -half, size.z_low}, {half, half, size.z_low + size.height}}};
+}
+
+double mean_diameter(const dem::Record& record) {
+  const auto radius = record.table("particles").real("radius");
+  return radius.empty() ? 0
+                        : 2 * std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(radius.size());
+}
+
+const Axis confining_axis{
+    "confining_pressure_MPa",   "σ₃", " MPa", "sigma3", "Confining pressure σ₃ (MPa)", "the confining pressure",
+    "MPa of confining pressure"};
+
+const Axis& swept_axis(const StudyResult& study) {
+  static const std::array<Axis, 3> axes{
+      Axis{"aspect_ratio", "AR", "", "ar", "Aspect ratio", "the aspect ratio", "unit of aspect ratio"},
+      Axis{"dip", "dip", "°", "dip", "Dip of the long axis (°)", "the dip", "degree of dip"}, confining_axis};
+  const Axis* most = axes.data();
+  std::size_t values = 0;
+  for (const Axis& axis : axes) {
+    std::size_t n = 0;
+    for (const auto test : {test_compression, test_tension, test_genesis})
+      n = std::max(n, series_of(study, test, axis).size());
+    if (n > values) most = &axis, values = n;
+  }
+  return *most;
+}
+
+std::vector<SeriesCase> swept(const StudyResult& study, std::string_view test) {
+  return series_of(study, test, swept_axis(study));
+}
+
+const dem::Record* first_specimen(const StudyResult& study) {
+  const auto cases = swept(study, test_genesis);
+  return cases.empty() ? nullptr : cases.front().record;
+}
+
+StudyResult of_mineral(const StudyResult& study, std::string_view mineral) {
+  StudyResult chosen{study.scenario, {}, study.published};
+  for (const CaseResult& one : study.cases) {
+    if (!one.record) continue;
+    const auto named = std::ranges::find(one.record->parameters, "mineral", [](const auto& p) { return p.first; });
+    const auto* text = named == one.record->parameters.end() ? nullptr : std::get_if<std::string>(&named->second);
+    if ((text ? std::string_view(*text) : std::string_view()) == mineral) chosen.cases.push_back(one);
+  }
+  return chosen;
+}
+
+const std::array<CrackClass, 4>& crack_classes() {
+  static const std::array<CrackClass, 4> classes{{{"inter_tension", "inter-grain tension", 1, 0, {0.835, 0.369, 0.0}},
+                                                  {"inter_shear", "inter-grain shear", 1, 1, {0.0, 0.0, 0.0}},
+                                                  {"intra_tension", "intra-grain tension", 0, 0, {0.0, 0.353, 0.612}},
+                                                  {"intra_shear", "intra-grain shear", 0, 1, {0.337, 0.706, 0.914}}}};
+  return classes;
+}
+
+std::vector<std::string> minerals_of(const dem::Record& record) {
+  std::vector<std::string> names;
+  std::istringstream list(record.table("particles").attribute("minerals"));
+  for (std::string name; std::getline(list, name, ',');) names.push_back(name);
+  return names;
+}
+
+render::Colour mineral_colour(std::string_view mineral) {
+  if (mineral == "alkali feldspar") return {0.965, 0.914, 0.663};
+  if (mineral == "plagioclase") return {0.792, 0.647, 0.176};
+  if (mineral == "quartz") return {0.816, 0.824, 0.835};
+  if (mineral == "biotite") return {0.302, 0.306, 0.322};
+  std::size_t sum = 0;
+  for (const char c : mineral) sum = 31 * sum + static_cast<unsigned char>(c);
+  return render::palette(sum);
+}
+
+Size size_of(const dem::Record& record) {
+  const dem::Table& particles = record.table("particles");
+  const std::string diameter = particles.attribute("diameter");
+  const std::string height = particles.attribute("height");
+  if (!diameter.empty() && !height.empty()) return {std::stod(diameter), std::stod(height), 0};
+  Size size;
+  const auto position = particles.real("position");
+  const auto radius = particles.real("radius");
+  double low = 0;
+  double high = 0;
+  for (std::size_t i = 0; i < radius.size(); ++i) {
+    const double z = position[3 * i + 2];
+    low = i == 0 ? z - radius[i] : std::min(low, z - radius[i]);
+    high = i == 0 ? z + radius[i] : std::max(high, z + radius[i]);
+    size.diameter = std::max(size.diameter, 2 * (std::hypot(position[3 * i], position[3 * i + 1]) + radius[i]));
+  }
+  size.z_low = low;
+  size.height = high - low;
+  return size;
+}
+
+render::Spheres particles_by_mineral(const dem::Record& record) {
+  const dem::Table& particles = record.table("particles");
+  const auto position = particles.real("position");
+  const auto radius = particles.real("radius");
+  const auto mineral = particles.integer("mineral");
+  const auto grain = particles.integer("grain");
+  std::vector<render::Colour> colours;
+  for (const std::string& name : minerals_of(record)) colours.push_back(mineral_colour(name));
+  render::Spheres spheres;
+  for (std::size_t i = 0; i < radius.size(); ++i) {
+    spheres.centre.push_back({position[3 * i], position[3 * i + 1], position[3 * i + 2]});
+    spheres.radius.push_back(radius[i]);
+    const auto index = static_cast<std::size_t>(mineral[i]);
+    const render::Colour colour = index < colours.size() ? colours[index] : render::palette(index);
+    spheres.colour.push_back(toned(colour, tone(grain[i])));
+  }
+  return spheres;
+}
+
+render::Scene specimen_scene(const dem::Record& record, int width) {
+  const Size size = size_of(record);
+  render::Scene scene;
+  scene.spheres.push_back(particles_by_mineral(record));
+  scene.camera.frame = frame_of(size);
+  scene.width = width;
+  scene.height = static_cast<int>(std::lround(width * std::max(0.5, size.height / size.diameter)));
+  return scene;
+}
+
+render::Scene section_scene(const dem::Record& record, int width) {
+  render::Scene scene = specimen_scene(record, width);
+  scene.cuts.push_back({{0, 0, 0}, {0, 1, 0}});
+  return scene;
+}
+
+std::vector<render::Discs> crack_discs(const dem::Record& record, std::size_t count, double scale) {
+  const Cracks cracks = cracks_of(record, count);
+  std::vector<render::Discs> discs(crack_classes().size());
+  for (std::size_t i = 0; i < cracks.count; ++i) {
+    const std::size_t k = class_of(cracks, i);
+    if (k >= discs.size()) continue;
+    discs[k].centre.push_back({cracks.position[3 * i], cracks.position[3 * i + 1], cracks.position[3 * i + 2]});
+    discs[k].normal.push_back({cracks.normal[3 * i], cracks.normal[3 * i + 1], cracks.normal[3 * i + 2]});
+    discs[k].radius.push_back(scale * std::sqrt(cracks.area[i] / std::numbers::pi));
+    discs[k].colour.push_back(crack_classes()[k].colour);
+  }
+  return discs;
+}
+
+std::vector<render::Polyline> crack_traces(const dem::Record& record, std::size_t count, double width) {
+  const Cracks cracks = cracks_of(record, count);
+  const double distance = section_reach(record);
+  std::vector<render::Polyline> traces;
+  for (std::size_t i = 0; i < cracks.count; ++i) {
+    const std::size_t k = class_of(cracks, i);
+    if (k >= crack_classes().size() || !near_section(cracks, i, distance)) continue;
+    // The line in which the crack's plane crosses y = 0: along n x y.
+    double along_x = -cracks.normal[3 * i + 2];
+    double along_z = cracks.normal[3 * i];
+    const double length = std::hypot(along_x, along_z);
+    if (length < 1e-12)
+      along_x = 1;
+    else
+      along_x /= length, along_z /= length;
+    const double half = std::sqrt(cracks.area[i] / std::numbers::pi);
+    const double x = cracks.position[3 * i];
+    const double z = cracks.position[3 * i + 2];
+    traces.push_back({{{x - half * along_x, 0, z - half * along_z}, {x + half * along_x, 0, z + half * along_z}},
+                      crack_classes()[k].colour,
+                      width});
+  }
+  return traces;
+}
+
+std::array<std::size_t, 4> crack_numbers(const dem::Record& record, std::size_t count) {
+  const Cracks cracks = cracks_of(record, count);
+  std::array<std::size_t, 4> numbers{};
+  for (std::size_t i = 0; i < cracks.count; ++i) {
+    const std::size_t k = class_of(cracks, i);
+    if (k < numbers.size()) ++numbers[k];
+  }
+  return numbers;
+}
+
+Picture transparent_cracks(const dem::Record& record, std::size_t count, const std::string& label, int width,
+                           double scale) {
+  const Size size = size_of(record);
+  const double half = 0.5 * size.diameter;
+  render::Scene scene;
+  scene.discs = crack_discs(record, count, scale);
+  scene.outline = {
+      render::Outline::Shape::cylinder, {-half, -half, size.z_low}, {half, half, size.z_low + size.height}};
+  scene.camera.frame = frame_of(size);
+  scene.width = width;
+  scene.height = static_cast<int>(std::lround(width * std::max(0.5, size.height / size.diameter)));
+  return {.scene = std::move(scene), .label = label, .legend = crack_legend(crack_numbers(record, count))};
+}
+
+double legible_disc_scale(const dem::Record& record) {
+  const Cracks cracks = cracks_of(record, all_cracks);
+  // A disc of any direction covers half its area; half the picture may be covered.
+  const double covered = 0.5 * std::accumulate(cracks.area.begin(), cracks.area.end(), 0.0);
+  const Size size = size_of(record);
+  if (!(covered > 0)) return 1;
+  const double scale = std::sqrt(0.5 * size.diameter * size.height / covered);
+  return std::clamp(0.1 * std::round(10 * scale), 0.2, 1.0);
+}
+
+Picture section_cracks(const dem::Record& record, std::size_t count, const std::string& label, int width) {
+  render::Scene scene = section_scene(record, width);
+  scene.lines = crack_traces(record, count, std::max(1.2, width / 260.0));
+  return {.scene = std::move(scene), .label = label, .legend = crack_legend(numbers_in_section(record, count))};
+}
+
+std::string crack_words(const std::array<std::size_t, 4>& numbers) {
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    parts.push_back(count(static_cast<double>(numbers[k])) + " " + std::string(crack_classes()[k].name));
+  }
+  return listed(parts);
+}
+
+std::vector<LegendEntry> mineral_legend(const dem::Record& record) {
+  std::vector<LegendEntry> legend;
+  for (const std::string& name : minerals_of(record)) legend.push_back({mineral_colour(name), name});
+  return legend;
+}
+
+}  // namespace reports::texture

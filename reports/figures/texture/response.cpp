@@ -1,0 +1,497 @@
+// The base case from first load to failure (Zhao et al. 2021, Fig. 8), stress-strain curves and strengths against the
+// aspect ratio (Fig. 14), shares of minerals and contact groups (Fig. 18, left half).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "reports/figures/table.h"
+#include "reports/figures/texture/parts.h"
+#include "reports/page/text.h"
+
+namespace reports::texture {
+namespace {
+
+constexpr int half_width = 440;  // two beside each other on the page
+constexpr int half_height = 310;
+constexpr int curves_height = 380;  // with a legend below
+
+const render::Colour grey{0.35, 0.35, 0.35};
+
+render::Mark moment(double strain_percent, const std::string& label) {
+  return {.kind = render::Mark::Kind::vertical,
+          .x = strain_percent,
+          .y = 0,
+          .label = label,
+          .colour = grey,
+          .line = render::Line::dot};
+}
+
+// Strain (%) where the axial stress first reaches a level (MPa).
+double strain_at(const dem::Table& history, double stress_MPa) {
+  return 100 * at_first(history.real("axial_stress"), history.real("axial_strain"), 1e6 * stress_MPa);
+}
+
+struct Level {
+  std::string symbol;
+  double stress = 0, strain = 0;  ///< MPa, %
+};
+
+std::vector<Level> levels_of(const dem::Record& record) {
+  const dem::Table& history = record.table("history");
+  std::vector<Level> levels;
+  const auto add = [&](const std::string& symbol, std::string_view result) {
+    const double stress = result_or_nan(record, result);
+    const double strain = std::isfinite(stress) ? strain_at(history, stress) : stress;
+    if (std::isfinite(strain)) levels.push_back({symbol, stress, strain});
+  };
+  add("σci", "crack_initiation_MPa.axial_stiffness");
+  add("σcd", "crack_damage_MPa");
+  const double ucs = result_or_nan(record, "ucs_MPa");
+  if (std::isfinite(ucs)) levels.push_back({"peak", ucs, 100 * result_or_nan(record, "peak_strain")});
+  if (!levels.empty() && !std::isfinite(levels.back().strain)) levels.pop_back();
+  return levels;
+}
+
+render::Chart stress_and_strains(const StudyResult& study, const dem::Record& record) {
+  const dem::Table& history = record.table("history");
+  render::Chart chart;
+  chart.x.title = "Axial strain (%)";
+  chart.left.title = "Axial stress (MPa)";
+  chart.right.title = "Volumetric, lateral strain (%)";
+  render::Series stress = curve(history, {"axial_strain", "axial_stress", 100, 1e-6});
+  stress.label = "axial stress";
+  stress.colour = render::palette(0);
+  render::Series volume = curve(history, {"axial_strain", "volumetric_strain", 100, 100});
+  volume.label = "volumetric strain (right)";
+  volume.colour = render::palette(1);
+  volume.line = render::Line::dash;
+  volume.side = render::Side::right;
+  render::Series lateral = curve(history, {"axial_strain", "lateral_strain", 100, 100});
+  lateral.label = "lateral strain (right)";
+  lateral.colour = render::palette(2);
+  lateral.line = render::Line::dash_dot;
+  lateral.side = render::Side::right;
+  chart.series = {stress, volume, lateral};
+  for (const auto& [id, name] : {std::pair{"crack_initiation_ar_1", "published σci"},
+                                 {"crack_damage", "published σcd"},
+                                 {"ucs_ar_1", "published peak"}}) {
+    const double level = study.published_value(id);
+    if (!std::isfinite(level)) continue;
+    chart.marks.push_back(
+        {.kind = render::Mark::Kind::horizontal, .x = 0, .y = level, .label = name, .colour = {0.6, 0.6, 0.6}});
+  }
+  for (const Level& one : levels_of(record)) {
+    chart.marks.push_back({.kind = render::Mark::Kind::point,
+                           .x = one.strain,
+                           .y = one.stress,
+                           .label = one.symbol,
+                           .colour = {0, 0, 0}});
+    chart.marks.push_back(moment(one.strain, ""));
+  }
+  chart.legend = render::Chart::Legend::below;
+  chart.width = 640;
+  chart.height = 360;
+  return chart;
+}
+
+render::Chart stiffness_and_cracks(const dem::Record& record) {
+  const dem::Table& history = record.table("history");
+  render::Chart chart;
+  chart.x.title = "Axial strain (%)";
+  chart.left.title = "Axial stiffness (GPa)";
+  chart.left.low = 0;
+  // At first load the strain is near zero and the ratio senseless: the axis is made for what comes after.
+  const double modulus = result_or_nan(record, "young_modulus_GPa");
+  if (modulus > 0) chart.left.high = 1.5 * modulus;
+  chart.right.title = "Cracks so far";
+  chart.right.logarithmic = true;
+  render::Series stiffness = curve(history, {"axial_strain", "axial_stiffness", 100, 1e-9});
+  stiffness.label = "axial stiffness";
+  stiffness.colour = grey;
+  stiffness.width = 2.2;
+  chart.series.push_back(stiffness);
+  constexpr std::array lines{render::Line::solid, render::Line::dash, render::Line::dash_dot, render::Line::dot};
+  for (std::size_t k = 0; k < crack_classes().size(); ++k) {
+    const CrackClass& one = crack_classes()[k];
+    render::Series cracks = curve(history, {"axial_strain", "cracks_" + std::string(one.id), 100, 1});
+    // A logarithmic axis begins at the first crack.
+    render::Series shown = cracks;
+    shown.x.clear();
+    shown.y.clear();
+    for (std::size_t i = 0; i < cracks.x.size(); ++i) {
+      if (cracks.y[i] < 1) continue;
+      shown.x.push_back(cracks.x[i]);
+      shown.y.push_back(cracks.y[i]);
+    }
+    if (shown.x.empty()) continue;
+    shown.label = std::string(one.name) + " (right)";
+    shown.colour = one.colour;
+    shown.line = lines[k];
+    shown.side = render::Side::right;
+    chart.series.push_back(shown);
+  }
+  for (const Level& one : levels_of(record)) chart.marks.push_back(moment(one.strain, one.symbol));
+  chart.legend = render::Chart::Legend::below;
+  chart.width = 640;
+  chart.height = 350;
+  return chart;
+}
+
+render::Chart compression_curves(const std::vector<SeriesCase>& cases) {
+  render::Chart chart;
+  chart.x.title = "Strain (%): lateral < 0 < axial";
+  chart.left.title = "Axial stress (MPa)";
+  chart.left.low = 0;
+  constexpr std::array kinds{std::pair{"axial_strain", "axial"}, std::pair{"lateral_strain", "lateral"},
+                             std::pair{"volumetric_strain", "volumetric"}};
+  constexpr std::array lines{render::Line::solid, render::Line::dash, render::Line::dot};
+  for (const SeriesCase& item : cases) {
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+      render::Series series = curve(item.record->table("history"), {kinds[k].first, "axial_stress", 100, 1e-6});
+      series.label = item.label + " " + kinds[k].second;
+      series.colour = item.colour;
+      series.line = lines[k];
+      series.width = k == 0 ? 1.8 : 1.4;
+      chart.series.push_back(series);
+    }
+  }
+  chart.legend = render::Chart::Legend::below;
+  chart.width = half_width;
+  chart.height = curves_height;
+  return chart;
+}
+
+render::Chart tension_curves(const std::vector<SeriesCase>& cases) {
+  render::Chart chart;
+  chart.x.title = "Axial strain (%)";
+  chart.left.title = "Axial tension (MPa)";
+  chart.left.low = 0;
+  add_curves(chart, cases, {"axial_strain", "axial_stress", 100, 1e-6});
+  chart.legend = render::Chart::Legend::below;
+  chart.width = half_width;
+  chart.height = curves_height;
+  return chart;
+}
+
+struct Strength {
+  std::string label;
+  Spread ucs, ts;
+  double ratio = 0, ratio_deviation = 0;
+};
+
+std::vector<Strength> strengths(const std::vector<SeriesCase>& compression, const std::vector<SeriesCase>& tension) {
+  std::vector<Strength> found;
+  for (const SeriesCase& item : compression) {
+    const auto pulled = std::ranges::find(tension, item.value, &SeriesCase::value);
+    if (pulled == tension.end()) continue;
+    const Spread ucs = spread_of(item, result("ucs_MPa"));
+    const Spread ts = spread_of(*pulled, result("tensile_strength_MPa"));
+    if (!std::isfinite(ucs.mean) || !(ts.mean > 0)) continue;
+    const double ratio = ucs.mean / ts.mean;
+    found.push_back({item.label, ucs, ts, ratio, ratio * std::hypot(ucs.deviation / ucs.mean, ts.deviation / ts.mean)});
+  }
+  return found;
+}
+
+// Bars for a strength, and the ratio as a line on the right axis (only once).
+render::Chart strength_bars(const std::vector<Strength>& found, Spread Strength::*value, const std::string& title,
+                            std::size_t colour, bool ratio) {
+  render::Chart chart;
+  render::Bars bars;
+  bars.print_values = true;
+  bars.value_format = ratio ? "{:.0f}" : "{:.1f}";
+  bars.labels = {title};
+  bars.colours = {render::palette(colour)};
+  bars.values.emplace_back();
+  bars.errors.emplace_back();
+  render::Series line{.label = "UCS/TS (right)",
+                      .x = {},
+                      .y = {},
+                      .colour = {0, 0, 0},
+                      .marker = render::Marker::diamond,
+                      .side = render::Side::right,
+                      .y_error = {}};
+  double highest = 0;
+  bool repeated = false;
+  for (const Strength& one : found) {
+    const Spread& spread = one.*value;
+    line.x.push_back(static_cast<double>(bars.categories.size()));
+    line.y.push_back(one.ratio);
+    line.y_error.push_back(one.ratio_deviation);
+    bars.categories.push_back(one.label);
+    bars.values[0].push_back(spread.mean);
+    bars.errors[0].push_back(spread.deviation);
+    highest = std::max(highest, spread.mean + spread.deviation);
+    repeated = repeated || spread.count > 1;
+  }
+  if (!repeated) {
+    bars.errors.clear();
+    line.y_error.clear();
+  }
+  bars.print_values = !repeated;
+  chart.bars = bars;
+  chart.left.title = title + " (MPa)";
+  chart.left.low = 0;
+  chart.left.high = 1.35 * highest;
+  if (ratio) {
+    const auto [low, high] = std::ranges::minmax(line.y);
+    chart.right.title = "UCS/TS";
+    // Across the middle of the bars: at their tops it would hide the values printed there.
+    const double span = std::max(8.0, 2.5 * (high - low)), middle = 0.5 * (low + high);
+    chart.right.low = std::max(0.0, std::floor(middle - 0.45 * span));
+    chart.right.high = std::ceil(middle + 0.55 * span);
+    chart.series.push_back(line);
+  }
+  chart.legend = render::Chart::Legend::top_left;
+  chart.width = found.size() > 4 ? 640 : half_width;
+  chart.height = half_height;
+  return chart;
+}
+
+std::string strengths_alt(const std::vector<Strength>& found) {
+  std::vector<std::string> parts;
+  for (const Strength& one : found) {
+    parts.push_back(fmt::format("{}: UCS {} MPa, TS {} MPa, ratio {}", one.label, number(one.ucs.mean, 4),
+                                number(one.ts.mean, 3), number(one.ratio, 3)));
+  }
+  return joined(parts, "; ") + ".";
+}
+
+std::string spread_note(const std::vector<Strength>& found) {
+  return std::ranges::any_of(found, [](const Strength& one) { return one.ucs.count > 1 || one.ts.count > 1; })
+             ? " Means of repeats; bars are one standard deviation."
+             : "";
+}
+
+void add_strengths(FigureContent& content, const std::vector<Strength>& found) {
+  if (found.empty()) return;
+  content.panels.push_back(
+      {.id = "strength",
+       .caption = "Uniaxial compressive strength and its ratio to the tensile strength." + spread_note(found),
+       .alt = strengths_alt(found),
+       .content = strength_bars(found, &Strength::ucs, "UCS", 0, true)});
+  content.panels.push_back({.id = "tensile_strength",
+                            .caption = "Tensile strength." + spread_note(found),
+                            .alt = strengths_alt(found),
+                            .content = strength_bars(found, &Strength::ts, "TS", 2, false)});
+}
+
+std::string strengths_found(const std::vector<SeriesCase>& compression, const std::vector<SeriesCase>& tension,
+                            const std::vector<Strength>& found, const Axis& axis) {
+  std::string text = "UCS " + by_case(compression, result("ucs_MPa"), 4, "MPa") + "; TS " +
+                     by_case(tension, result("tensile_strength_MPa"), 3, "MPa");
+  std::vector<std::string> ratios;
+  for (const Strength& one : found) ratios.push_back(number(one.ratio, 3));
+  text += ratios.empty() ? "." : "; UCS/TS " + listed(ratios) + ".";
+  const std::string ucs = trend_words(compression, result("ucs_MPa"), "MPa", axis);
+  const std::string ts = trend_words(tension, result("tensile_strength_MPa"), "MPa", axis);
+  if (!ucs.empty()) text += " UCS " + ucs + ".";
+  if (!ts.empty()) text += " TS " + ts + ".";
+  return text;
+}
+
+// Names after `prefix` in the results of any case, in order of first appearance.
+std::vector<std::string> names_after(const std::vector<SeriesCase>& cases, std::string_view prefix) {
+  std::vector<std::string> names;
+  std::set<std::string> seen;
+  for (const SeriesCase& item : cases) {
+    for (const auto& [name, value] : item.record->results) {
+      if (name.starts_with(prefix) && seen.insert(name).second) names.push_back(name.substr(prefix.size()));
+    }
+  }
+  return names;
+}
+
+double share(const dem::Record& record, const std::string& name) {
+  const double value = result_or_nan(record, name);
+  return std::isfinite(value) ? 100 * value : 0;
+}
+
+render::Chart share_chart(const std::string& title, const std::vector<SeriesCase>& cases) {
+  render::Chart chart;
+  render::Bars bars;
+  bars.stacked = true;
+  for (const SeriesCase& item : cases) bars.categories.push_back(item.label);
+  chart.bars = bars;
+  chart.left.title = title;
+  chart.left.low = 0;
+  chart.left.high = 100;
+  chart.legend = render::Chart::Legend::outside_right;
+  chart.width = cases.size() > 4 ? 640 : half_width;
+  chart.height = 380;
+  return chart;
+}
+
+void add_stack(render::Chart& chart, const std::string& label, const render::Colour& colour,
+               std::vector<double> values) {
+  chart.bars->labels.push_back(label);
+  chart.bars->colours.push_back(colour);
+  chart.bars->values.push_back(std::move(values));
+}
+
+std::vector<double> over_cases(const std::vector<SeriesCase>& cases, const std::string& result) {
+  std::vector<double> values;
+  for (const SeriesCase& item : cases) values.push_back(share(*item.record, result));
+  return values;
+}
+
+render::Chart mineral_chart(const std::vector<SeriesCase>& cases) {
+  render::Chart chart = share_chart("Share of particles (%)", cases);
+  for (const std::string& name : names_after(cases, "mineral_share.")) {
+    add_stack(chart, words(name), mineral_colour(words(name)), over_cases(cases, "mineral_share." + name));
+  }
+  return chart;
+}
+
+// Within grains by mineral; between grains all together: the pairs are in the table.
+render::Chart contact_chart(const std::vector<SeriesCase>& cases) {
+  render::Chart chart = share_chart("Share of contacts (%)", cases);
+  std::vector<double> between(cases.size(), 0.0);
+  for (const std::string& name : names_after(cases, "contact_share.")) {
+    const auto values = over_cases(cases, "contact_share." + name);
+    if (name.starts_with("intra_")) {
+      add_stack(chart, "in " + words(name.substr(6)), mineral_colour(words(name.substr(6))), values);
+    } else {
+      for (std::size_t i = 0; i < values.size(); ++i) between[i] += values[i];
+    }
+  }
+  add_stack(chart, "between grains", crack_classes()[0].colour, between);
+  return chart;
+}
+
+TextTable contact_table(const std::vector<SeriesCase>& cases) {
+  TextTable table;
+  table.head = {"Contact group"};
+  for (const SeriesCase& item : cases) table.head.push_back(item.label + " (%)");
+  for (const std::string& name : names_after(cases, "contact_share.")) {
+    std::vector<std::string> row{words(name)};
+    for (const SeriesCase& item : cases)
+      row.push_back(fmt::format("{:.1f}", share(*item.record, "contact_share." + name)));
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+}  // namespace
+
+FigureContent progressive_failure(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "Crack initiation where the axial stiffness leaves its plateau, at 71.1 MPa (34 % of the peak, strain 0.1 %); "
+      "crack "
+      "damage where the volumetric strain turns, at 164 MPa (80 %, strain 0.25 %); peak at 206.8 MPa.";
+  const auto cases = swept(study, test_compression);
+  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  if (cases.empty()) return content;
+  const dem::Record& base = *cases.front().record;
+  std::vector<std::string> said;
+  for (const Level& one : levels_of(base)) {
+    said.push_back(fmt::format("{} {} MPa at {} % strain", one.symbol, number(one.stress, 4), number(one.strain, 3)));
+  }
+  const std::string found = said.empty() ? "no characteristic stress was found" : joined(said, ", ");
+  content.panels.push_back(
+      {.id = "stress",
+       .caption =
+           "Axial stress, volumetric and lateral strain (contraction positive), with our and the published levels.",
+       .alt = "Stress, volumetric and lateral strain against axial strain: " + found + ".",
+       .content = stress_and_strains(study, base)});
+  content.panels.push_back({.id = "stiffness",
+                            .caption = "Axial stiffness (Eq. 9) and cracks so far, by class.",
+                            .alt = "Axial stiffness and numbers of cracks against axial strain; " +
+                                   crack_words(crack_numbers(base, all_cracks)) + " at the end.",
+                            .content = stiffness_and_cracks(base)});
+  content.finding = "At " + cases.front().label + ": " + found + ".";
+  const double ucs = result_or_nan(base, "ucs_MPa");
+  const double ci = result_or_nan(base, "crack_initiation_MPa.axial_stiffness");
+  const double cd = result_or_nan(base, "crack_damage_MPa");
+  if (std::isfinite(ci) && std::isfinite(cd) && ucs > 0) {
+    content.finding +=
+        fmt::format(" Initiation is {} and damage {} of the peak.", percent(ci / ucs, 0), percent(cd / ucs, 0));
+  }
+  return content;
+}
+
+FigureContent stress_strain(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "Curves agree up to crack initiation and part after it, first in lateral strain. UCS falls from 206.8 to 201.3 "
+      "and "
+      "198.4 MPa and TS from 9.8 to 9.4 and 9.1 MPa at aspect ratios 1, 2 and 3; UCS/TS rises slightly.";
+  const auto compression = swept(study, test_compression);
+  const auto tension = swept(study, test_tension);
+  add_missing(content, study, {test_compression, test_tension});
+  const std::string ucs = by_case(compression, result("ucs_MPa"), 4, "MPa");
+  const std::string ts = by_case(tension, result("tensile_strength_MPa"), 3, "MPa");
+  if (!compression.empty()) {
+    content.panels.push_back(
+        {.id = "compression",
+         .caption = "Uniaxial compression: axial stress against axial, lateral and volumetric strain.",
+         .alt = "Stress-strain curves in compression; peaks of " + ucs + ".",
+         .content = compression_curves(compression)});
+  }
+  if (!tension.empty()) {
+    content.panels.push_back({.id = "tension",
+                              .caption = "Direct tension.",
+                              .alt = "Stress-strain curves in direct tension; peaks of " + ts + ".",
+                              .content = tension_curves(tension)});
+  }
+  const auto found = strengths(compression, tension);
+  add_strengths(content, found);
+  content.finding = strengths_found(compression, tension, found, swept_axis(study));
+  return content;
+}
+
+FigureContent dip_strengths(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "With the dip of the long axes from 0° to 90° the tensile strength rises strongly and UCS rises, weakest at 0°; "
+      "UCS/TS falls from 21 to 17.";
+  const auto compression = swept(study, test_compression);
+  const auto tension = swept(study, test_tension);
+  add_missing(content, study, {test_compression, test_tension});
+  const auto found = strengths(compression, tension);
+  add_strengths(content, found);
+  content.finding = strengths_found(compression, tension, found, swept_axis(study));
+  return content;
+}
+
+FigureContent dip_group_shares(const StudyResult& study) {
+  FigureContent content = group_shares(study);
+  content.statement = "The dip changes the shares neither of the minerals nor of the contact groups.";
+  return content;
+}
+
+FigureContent group_shares(const StudyResult& study) {
+  FigureContent content;
+  content.statement =
+      "The shares of the minerals hardly change with the aspect ratio; contacts between grains rise from 55 % to 60 %, "
+      "because an ellipsoid of the same volume has more surface.";
+  const auto cases = swept(study, test_compression);
+  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  if (cases.empty()) return content;
+  const std::string inter = by_case(
+      cases, [](const dem::Record& r) { return 100 * result_or_nan(r, "inter_grain_share"); }, 3, "%");
+  if (!names_after(cases, "mineral_share.").empty()) {
+    content.panels.push_back({.id = "minerals",
+                              .caption = "Minerals, by particles.",
+                              .alt = "Stacked bars of the mineral shares, nearly the same in every case.",
+                              .content = mineral_chart(cases)});
+  }
+  if (!names_after(cases, "contact_share.").empty()) {
+    content.panels.push_back({.id = "contacts",
+                              .caption = "Contacts within grains, by mineral, and between grains.",
+                              .alt = "Stacked bars of the contact groups; between grains " + inter + ".",
+                              .content = contact_chart(cases)});
+    content.panels.push_back(
+        {.id = "groups", .caption = "Every contact group.", .alt = "", .content = contact_table(cases)});
+  }
+  content.finding = "Contacts between grains: " + inter + ".";
+  const std::string trend = trend_words(cases, result("inter_grain_share", 100), "points", swept_axis(study));
+  if (!trend.empty()) content.finding += " Their share " + trend + ".";
+  return content;
+}
+
+}  // namespace reports::texture

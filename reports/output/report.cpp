@@ -1,0 +1,75 @@
+#include "reports/output/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "engine/core/files.h"
+#include "reports/output/drawing.h"
+#include "reports/page/page.h"
+#include "reports/output/pdf.h"
+#include "reports/published/published.h"
+#include "reports/output/summary.h"
+#include "reports/page/text.h"
+
+namespace reports {
+namespace {
+
+bool all_held(const StudyResult& study) {
+  return std::ranges::all_of(study.cases, [](const CaseResult& result) {
+    return result.record && std::ranges::all_of(result.record->checks, &dem::Check::held);
+  });
+}
+
+}  // namespace
+
+ReportOutcome make_report(StudyResult study, const ReportOptions& options, const CanvasSource& canvas,
+                          const RunFacts& run) {
+  const auto start = std::chrono::steady_clock::now();
+  study.published = published_numbers(study, options.assets / "papers");
+  const auto chosen = chosen_figures(study, options.only);
+  const Comparisons comparisons = compare(study, options.assets / "papers");
+  const Drawings drawings = draw_figures(study, chosen, options, canvas);
+  const std::vector<DrawnFigure>& drawn = drawings.figures;
+
+  ReportOutcome outcome;
+  outcome.checks_held = all_held(study);
+  outcome.published_all_met =
+      std::ranges::none_of(comparisons.rows, [](const Comparison& row) { return row.verdict == Verdict::missed; });
+  const auto written = [&](const char* name, const auto& write) {
+    const std::filesystem::path path = options.folder / name;
+    write(path);
+    outcome.files.push_back(path);
+  };
+  written("summary.json", [&](const auto& path) { dem::write_file(path, summary_json(study, comparisons, drawn)); });
+  if (options.html || options.pdf) {
+    if (options.html) {
+      const std::string html = page(study, comparisons, drawn, options, Images::embedded);
+      written("report.html", [&](const auto& path) { dem::write_file(path, html); });
+    }
+    if (options.pdf) {
+      const std::string html = page(study, comparisons, drawn, options, Images::linked);
+      written("report.pdf", [&](const auto& path) { print_pdf(html, options.assets / "page" / "print.css", path); });
+    }
+  }
+  RunFacts facts = run;
+  facts.emplace_back("gl_renderer", drawings.gl_renderer);
+  facts.emplace_back("report_seconds", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  dem::write_file(options.folder / "run.json", run_json(facts));
+  return outcome;
+}
+
+std::string list_figures() {
+  std::string text;
+  std::string_view model;
+  for (const Figure& figure : figures()) {
+    if (figure.model != model) text += fmt::format("{}{}:\n", text.empty() ? "" : "\n", words(figure.model));
+    model = figure.model;
+    text += fmt::format("  {:<24} {:<34} {}\n", figure.id, figure.source, figure.title);
+    if (!figure.scenarios.empty()) text += fmt::format("  {:<24} shown by {}\n", "", fmt::join(figure.scenarios, ", "));
+  }
+  return text;
+}
+
+}  // namespace reports

@@ -1,0 +1,106 @@
+#include "reports/output/summary.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace reports {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void put(Json& object, std::string_view name, Json value) {
+  const std::size_t dot = name.find('.');
+  if (dot == std::string_view::npos)
+    object[std::string(name)] = std::move(value);
+  else
+    put(object[std::string(name.substr(0, dot))], name.substr(dot + 1), std::move(value));
+}
+
+// Counts are written as whole numbers.
+Json plain(double value) {
+  if (std::floor(value) == value && std::abs(value) < 9e15) return static_cast<std::int64_t>(value);
+  return value;
+}
+
+Json plain(const std::variant<double, std::string>& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  return plain(std::get<double>(value));
+}
+
+Json plain(const Amount& amount) {
+  if (const auto* text = std::get_if<std::string>(&amount)) return *text;
+  if (const auto* range = std::get_if<std::pair<double, double>>(&amount)) {
+    return Json::array({plain(range->first), plain(range->second)});
+  }
+  return plain(std::get<double>(amount));
+}
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? plain(*value) : Json();
+}
+
+Json case_json(const CaseResult& result) {
+  Json json{{"id", result.id}, {"parameters", Json::object()}, {"results", Json::object()}};
+  if (!result.record) {
+    json["error"] = result.error;
+    return json;
+  }
+  for (const auto& [name, value] : result.record->parameters) put(json["parameters"], name, plain(value));
+  for (const auto& [name, value] : result.record->results) {
+    if (std::isfinite(value)) put(json["results"], name, plain(value));
+  }
+  return json;
+}
+
+Json comparison_json(const Comparison& row) {
+  Json json{{"id", row.id},
+            {"source", row.source},
+            {"published", plain(row.published)},
+            {"computed", or_null(row.computed)},
+            {"deviation", or_null(row.deviation)},
+            {"tolerance", or_null(row.tolerance)},
+            {"verdict", verdict_word(row.verdict)},
+            {"unit", row.unit},
+            {"relative", row.relative}};
+  if (row.estimate && row.estimate->has_interval()) {
+    if (row.p_value) json["slope"] = plain(row.estimate->value);
+    json["interval"] = {plain(row.estimate->low), plain(row.estimate->high)};
+  }
+  if (row.p_value && std::isfinite(*row.p_value)) json["p_value"] = plain(*row.p_value);
+  return json;
+}
+
+}  // namespace
+
+std::string summary_json(const StudyResult& study, const Comparisons& comparisons,
+                         const std::vector<DrawnFigure>& figures) {
+  Json json{{"scenario", study.scenario->name()}, {"scale", study.scenario->scale()}, {"cases", Json::array()},
+            {"comparisons", Json::array()},       {"checks", Json::array()},          {"figures", Json::array()}};
+  for (const CaseResult& result : study.cases) {
+    json["cases"].push_back(case_json(result));
+    if (!result.record) continue;
+    for (const dem::Check& check : result.record->checks) {
+      Json item{{"id", result.id + "." + check.id}, {"value", Json()}, {"limit", plain(check.limit)}};
+      if (std::isfinite(check.value)) item["value"] = plain(check.value);
+      item["held"] = check.held;
+      json["checks"].push_back(std::move(item));
+    }
+  }
+  for (const Comparison& row : comparisons.rows) json["comparisons"].push_back(comparison_json(row));
+  for (const DrawnFigure& figure : figures) {
+    json["figures"].push_back({{"id", figure.figure->id},
+                               {"title", figure.figure->title},
+                               {"source", figure.figure->source},
+                               {"files", figure.files}});
+  }
+  return json.dump(2) + "\n";
+}
+
+std::string run_json(const RunFacts& facts) {
+  Json json = Json::object();
+  for (const auto& [name, value] : facts) put(json, name, plain(value));
+  return json.dump(2) + "\n";
+}
+
+}  // namespace reports

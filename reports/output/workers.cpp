@@ -1,0 +1,111 @@
+#include "reports/output/workers.h"
+
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+#include "engine/core/errors.h"
+
+namespace reports {
+namespace {
+
+enum class Ending { none, environment, other };
+
+/// What parent and children share beside the results.
+struct Board {
+  std::atomic<std::size_t> next{0};  // piece to take
+  std::atomic<bool> failed{false};   // taken by the first child that fails: the message is its own
+  Ending ending = Ending::none;
+  std::array<char, 2048> message{};
+};
+static_assert(std::atomic<std::size_t>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+
+/// Memory that stays one between this process and those forked from it.
+class SharedMemory {
+ public:
+  explicit SharedMemory(std::size_t size) : size_(size) {
+    void* at = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (at == MAP_FAILED) throw dem::EnvironmentError(std::string("no memory to draw in: ") + std::strerror(errno));
+    at_ = static_cast<std::byte*>(at);
+  }
+  ~SharedMemory() { munmap(at_, size_); }
+  SharedMemory(const SharedMemory&) = delete;
+  SharedMemory& operator=(const SharedMemory&) = delete;
+  [[nodiscard]] std::byte* at(std::size_t offset) const { return at_ + offset; }
+
+ private:
+  std::byte* at_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+void leave(Board& board, Ending ending, const char* message) {
+  if (board.failed.exchange(true)) return;
+  board.ending = ending;
+  std::strncpy(board.message.data(), message, board.message.size() - 1);
+}
+
+/// A child's life: it never returns, and ends without the parent's destructors and exit handlers.
+[[noreturn]] void serve(Board& board, std::size_t count, const std::function<void(std::size_t)>& work) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would fetch the results
+  try {
+    for (std::size_t piece = board.next++; piece < count && !board.failed; piece = board.next++) work(piece);
+  } catch (const dem::EnvironmentError& error) {
+    leave(board, Ending::environment, error.what());
+  } catch (const std::bad_alloc&) {
+    leave(board, Ending::environment, "out of memory while drawing; try a smaller --scale or --threads 1");
+  } catch (const std::exception& error) {
+    leave(board, Ending::other, error.what());
+  }
+  _exit(0);
+}
+
+int wait_for(pid_t child) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) return -1;
+  }
+  return status;
+}
+
+}  // namespace
+
+std::vector<std::byte> in_processes(std::size_t count, std::size_t size, int workers,
+                                    const std::function<void(std::size_t piece, std::byte* result)>& work) {
+  constexpr std::size_t results_from = (sizeof(Board) + 63) / 64 * 64;
+  const SharedMemory memory(results_from + count * size);
+  Board& board = *new (memory.at(0)) Board;
+  const auto one = [&](std::size_t piece) { work(piece, memory.at(results_from + piece * size)); };
+
+  std::vector<pid_t> children;
+  while (children.size() < std::min(static_cast<std::size_t>(std::max(1, workers)), count)) {
+    const pid_t child = fork();
+    if (child == 0) serve(board, count, one);
+    if (child < 0) break;  // fewer will do
+    children.push_back(child);
+  }
+  if (children.empty() && count > 0) {
+    throw dem::EnvironmentError(std::string("no process can be made to draw in: ") + std::strerror(errno));
+  }
+  for (const pid_t child : children) {
+    const int status = wait_for(child);
+    if (status == 0) continue;
+    const std::string how = WIFSIGNALED(status) ? std::string("signal ") + strsignal(WTERMSIG(status)) : "an error";
+    leave(board, Ending::environment, ("a process that drew pictures was ended by " + how).c_str());
+  }
+  if (board.ending == Ending::environment) throw dem::EnvironmentError(board.message.data());
+  if (board.ending == Ending::other) throw std::runtime_error(board.message.data());
+  const std::byte* results = memory.at(results_from);
+  return {results, results + count * size};
+}
+
+}  // namespace reports

@@ -1,0 +1,183 @@
+// The figures of the page: panels in rows, with what they have in common said once.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "engine/core/files.h"
+#include "reports/page/page.h"
+#include "reports/page/page_parts.h"
+#include "reports/page/page_tables.h"
+#include "reports/page/text.h"
+
+namespace reports {
+namespace {
+
+std::string data_uri(const std::filesystem::path& file) {
+  const std::string type = file.extension() == ".svg" ? "image/svg+xml" : "image/png";
+  return "data:" + type + ";base64," + base64(dem::read_file(file));
+}
+
+std::string colour_code(const render::Colour& colour) {
+  const auto part = [](double value) { return static_cast<int>(std::lround(255 * std::clamp(value, 0.0, 1.0))); };
+  return fmt::format("#{:02x}{:02x}{:02x}", part(colour.red), part(colour.green), part(colour.blue));
+}
+
+PageData legend_data(const std::vector<LegendEntry>& entries) {
+  PageData legend = new_list();
+  for (const LegendEntry& entry : entries) {
+    PageData item;
+    item.set("colour", colour_code(entry.colour));
+    item.set("text",
+             entry.text.empty() || entry.count.empty() ? entry.text + entry.count : entry.text + ": " + entry.count);
+    legend.push_back(item);
+  }
+  return legend;
+}
+
+/// What the pictures of a row have in common is said once, below the row.
+struct Shared {
+  bool caption = false, legend = false;
+};
+
+bool same_key(const std::vector<LegendEntry>& a, const std::vector<LegendEntry>& b) {
+  return std::ranges::equal(a, b, [](const LegendEntry& x, const LegendEntry& y) {
+    return x.text == y.text && colour_code(x.colour) == colour_code(y.colour);
+  });
+}
+
+Shared shared_by(std::span<const DrawnPanel> row) {
+  if (row.size() < 2) return {};
+  const DrawnPanel& first = row.front();
+  return {!first.caption.empty() &&
+              std::ranges::all_of(row, [&](const auto& p) { return p.caption == first.caption && !p.label.empty(); }),
+          !first.legend.empty() &&
+              std::ranges::all_of(row, [&](const auto& p) { return same_key(p.legend, first.legend); })};
+}
+
+// The counts alone, once the row says what the colours mean.
+std::vector<LegendEntry> counts_of(std::vector<LegendEntry> legend) {
+  std::erase_if(legend, [](const LegendEntry& entry) { return entry.count.empty(); });
+  for (LegendEntry& entry : legend) entry.text.clear();
+  return legend;
+}
+
+PageData panel_data(const DrawnPanel& panel, const std::filesystem::path& folder, const Shared& shared) {
+  PageData data;
+  data.set("letter", panel.letter);
+  data.set("has_letter", !panel.letter.empty());
+  data.set("caption", shared.caption ? "" : panel.caption);
+  data.set("alt", panel.alt);
+  data.set("label", panel.label);
+  data.set("has_label", !panel.label.empty());
+  data.set("note", panel.note);
+  data.set("has_note", !panel.note.empty());
+  data.set("has_image", !panel.image.empty());
+  data.set("shape", panel.height > panel.width * 3 / 2 ? "tall" : "wide-shape");
+  if (!panel.image.empty()) {
+    data.set("image", folder.empty() ? panel.image : data_uri(folder / panel.image));
+    data.set("has_size", panel.width > 0);
+    data.set("width", std::to_string(panel.width));
+    data.set("height", std::to_string(panel.height));
+  }
+  data.set("has_bar", panel.bar.percent > 0);
+  data.set("bar_text", panel.bar.text);
+  data.set("bar_percent", fmt::format("{:.2f}", panel.bar.percent));
+  const std::vector<LegendEntry> legend = shared.legend ? counts_of(panel.legend) : panel.legend;
+  data.set("has_legend", !legend.empty());
+  data.set("legend", legend_data(legend));
+  data.set("has_table", !panel.table.head.empty());
+  data.set("table_head", cells(panel.table.head));
+  PageData rows = new_list();
+  for (const auto& row : panel.table.rows) {
+    if (row.empty()) continue;
+    rows.push_back(table_row(row.front(), {row.begin() + 1, row.end()}));
+  }
+  data.set("table_rows", rows);
+  PageData files = new_list();
+  for (const std::string& file : panel.files) {
+    PageData item;
+    item.set("file", file);
+    std::string kind = std::filesystem::path(file).extension().string().substr(1);
+    std::ranges::transform(kind, kind.begin(), [](char c) { return static_cast<char>(std::toupper(c)); });
+    item.set("kind", kind);
+    files.push_back(item);
+  }
+  data.set("files", files);
+  return data;
+}
+
+// Where a series (cases told apart by a label, under one caption) that fills a row follows another such series: it begins
+// a row, so that each row says once what it shows.
+std::vector<bool> row_starts(const std::vector<DrawnPanel>& panels) {
+  std::vector<bool> starts(panels.size(), false);
+  bool after_series = false;
+  for (std::size_t i = 0; i < panels.size();) {
+    std::size_t end = i + 1;
+    while (end < panels.size() && !panels[end].label.empty() && panels[end].caption == panels[i].caption) ++end;
+    const bool series = !panels[i].label.empty() && end - i >= static_cast<std::size_t>(std::max(2, panels[i].per_row));
+    starts[i] = series && after_series;
+    after_series = series;
+    i = end;
+  }
+  return starts;
+}
+
+// Neighbours that go beside each other share a row.
+PageData rows_data(const std::vector<DrawnPanel>& panels, const std::filesystem::path& folder) {
+  PageData rows = new_list();
+  const std::vector<bool> starts = row_starts(panels);
+  for (std::size_t i = 0; i < panels.size();) {
+    const int per_row = std::max(1, panels[i].per_row);
+    std::size_t end = i;
+    while (end < panels.size() && end - i < static_cast<std::size_t>(per_row) &&
+           std::max(1, panels[end].per_row) == per_row && !(end > i && starts[end]))
+      ++end;
+    const std::span<const DrawnPanel> members(&panels[i], end - i);
+    const Shared shared = shared_by(members);
+    PageData list = new_list();
+    for (const DrawnPanel& panel : members) list.push_back(panel_data(panel, folder, shared));
+    std::vector<LegendEntry> key = shared.legend ? members.front().legend : std::vector<LegendEntry>{};
+    for (LegendEntry& entry : key) entry.count.clear();
+    PageData row;
+    // Alone in its figure, half a page wide, it would stand at the side.
+    const bool alone = panels.size() == 1 && per_row == 2 && panels.front().table.head.empty();
+    const bool whole = per_row == 1 && members.front().whole_width;
+    row.set("per_row", alone ? "lone" : std::to_string(per_row) + (whole ? " whole" : ""));
+    row.set("panels", list);
+    row.set("has_shared", shared.caption || shared.legend);
+    row.set("has_shared_caption", shared.caption);
+    row.set("letters", members.front().letter + "–" + members.back().letter);
+    row.set("shared_caption", members.front().caption);
+    row.set("shared_legend", legend_data(key));
+    rows.push_back(row);
+    i = end;
+  }
+  return rows;
+}
+
+}  // namespace
+
+PageData figures_data(const std::vector<DrawnFigure>& figures, const std::filesystem::path& folder) {
+  PageData list = new_list();
+  for (const DrawnFigure& figure : figures) {
+    PageData data;
+    data.set("figure_id", std::string(figure.figure->id));
+    data.set("figure_number", std::to_string(figure.number));
+    data.set("figure_title", std::string(figure.figure->title));
+    data.set("source", std::string(figure.figure->source));
+    data.set("has_source", !figure.figure->source.empty());
+    data.set("statement", figure.statement);
+    data.set("has_statement", !figure.statement.empty());
+    data.set("finding", figure.finding);
+    data.set("has_finding", !figure.finding.empty());
+    data.set("problem", figure.problem);
+    data.set("has_problem", !figure.problem.empty());
+    data.set("panel_rows", rows_data(figure.panels, folder));
+    list.push_back(data);
+  }
+  return list;
+}
+
+}  // namespace reports

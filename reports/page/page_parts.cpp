@@ -1,0 +1,524 @@
+#include "reports/page/page_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <span>
+
+#include "engine/core/files.h"
+#include "reports/ledger.h"
+#include "reports/page/page.h"
+#include "reports/page/page_tables.h"
+#include "reports/page/text.h"
+
+namespace reports {
+namespace {
+
+// "AR 2", "dip 45°", "σ₃ 10 MPa", "quartz"; "" where there is nothing to say.
+std::string parameter_words(const std::string& name, const std::variant<double, std::string>& value) {
+  const std::string text = parameter_text(value);
+  if (text.empty() || name == "mineral") return text;
+  if (name == "aspect_ratio") return "AR " + text;
+  if (name == "dip") return "dip " + text + "°";
+  if (name == "confining_pressure_MPa") return "σ₃ " + text + " MPa";
+  return words(name) + " " + text;
+}
+
+std::string test_of(const dem::Record& record) {
+  for (const auto& [name, value] : record.parameters) {
+    if (name == "test") return parameter_text(value);
+  }
+  return {};
+}
+
+std::string capital(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
+/// Cases with a record, by test, in report order.
+std::vector<std::pair<std::string, std::vector<const CaseResult*>>> by_test(const StudyResult& study) {
+  std::vector<std::pair<std::string, std::vector<const CaseResult*>>> groups;
+  for (const CaseResult& result : study.cases) {
+    if (!result.record) continue;
+    const std::string test = test_of(*result.record);
+    auto group = std::ranges::find(groups, test, [](const auto& g) { return g.first; });
+    if (group == groups.end()) group = groups.insert(groups.end(), {test, {}});
+    group->second.push_back(&result);
+  }
+  return groups;
+}
+
+/// Cases that differ in their seed alone: a column of the results.
+using Repeats = std::vector<const CaseResult*>;
+
+bool alike_but_for_seed(const dem::Record& a, const dem::Record& b) {
+  return std::ranges::equal(a.parameters, b.parameters, [](const auto& x, const auto& y) {
+    return x == y || (x.first == "seed" && y.first == "seed");
+  });
+}
+
+std::vector<Repeats> columns_of(const std::vector<const CaseResult*>& group) {
+  std::vector<Repeats> columns;
+  for (const CaseResult* result : group) {
+    const auto same = std::ranges::find_if(columns, [&](const Repeats& c) {
+      return result->record && c.front()->record && alike_but_for_seed(*c.front()->record, *result->record);
+    });
+    if (same == columns.end())
+      columns.push_back({result});
+    else
+      same->push_back(result);
+  }
+  return columns;
+}
+
+std::string shown_result(std::string_view name, double value) {
+  if (!std::isfinite(value)) return "–";
+  const bool whole = std::floor(value) == value && std::abs(value) < 1e15;
+  if (whole) return count(value);
+  const bool at_a_strain = name.find("MPa") != std::string_view::npos || name.ends_with("_at_largest_strain") ||
+                           name.ends_with("_at_largest_strain_GPa");
+  if (name.find("strain") != std::string_view::npos && !at_a_strain) {
+    return number(100 * value, 3) + " %";
+  }
+  if (name.find("share") != std::string_view::npos)
+    return std::abs(value) < 1e-3 ? number(100 * value, 2) + " %" : percent(value, 1);
+  return number(value, 3);
+}
+
+bool in_a_figure(std::string_view name) {
+  return name.starts_with("mineral_share.") || name.starts_with("contact_share.");
+}
+
+std::string specimen_text(const StudyResult& study) {
+  for (const CaseResult& result : study.cases) {
+    if (!result.record) continue;
+    const dem::Table* particles = result.record->find("particles");
+    if (!particles) continue;
+    const std::string diameter = particles->attribute("diameter");
+    const std::string height = particles->attribute("height");
+    std::string text = count(static_cast<double>(particles->rows())) + " particles";
+    if (!diameter.empty() && !height.empty()) {
+      text = fmt::format("{:g} mm × {:g} mm, {}", 1e3 * std::stod(diameter), 1e3 * std::stod(height), text);
+    }
+    return text;
+  }
+  return {};
+}
+
+std::string published_text(const Comparison& row) {
+  const std::string tail = row.unit.empty() ? "" : " " + row.unit;
+  if (const auto* text = std::get_if<std::string>(&row.published)) return *text;
+  if (const auto* range = std::get_if<std::pair<double, double>>(&row.published)) {
+    return shortest(range->first) + " to " + shortest(range->second) + tail;
+  }
+  return shortest(std::get<double>(row.published)) + tail;
+}
+
+// Three significant digits, or as many as the published number has.
+std::string computed_text(const Comparison& row) {
+  if (!row.computed) return "–";
+  if (const auto* text = std::get_if<std::string>(&*row.computed)) return *text;
+  std::size_t digits = 3;
+  if (const auto* published = std::get_if<double>(&row.published)) {
+    const std::string text = shortest(*published);
+    const auto figures =
+        static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return c >= '0' && c <= '9'; }));
+    if (std::abs(*published) >= 1) digits = std::max(digits, figures);
+  }
+  return number(std::get<double>(*row.computed), static_cast<int>(digits)) + (row.unit.empty() ? "" : " " + row.unit);
+}
+
+// Of a share of something, "%" becomes points.
+std::string difference_unit(const std::string& unit) { return unit == "%" ? "points" : unit; }
+
+std::string deviation_text(const Comparison& row) {
+  if (!row.deviation) return "–";
+  if (row.relative) return with_sign(fixed(100 * *row.deviation, 1)) + " %";
+  return with_sign(number(*row.deviation, 2)) + (row.unit.empty() ? "" : " " + difference_unit(row.unit));
+}
+
+std::string tolerance_text(const Comparison& row) {
+  if (!row.tolerance) return row.kind == "trend" ? (row.by_interval ? "by interval" : "by sign") : "–";
+  if (row.relative) return "± " + shortest(100 * *row.tolerance) + " %";
+  return "± " + shortest(*row.tolerance) + (row.unit.empty() ? "" : " " + difference_unit(row.unit));
+}
+
+double last_finite(std::span<const double> values) {
+  for (std::size_t i = values.size(); i-- > 0;) {
+    if (std::isfinite(values[i])) return values[i];
+  }
+  return 0;
+}
+
+std::optional<PageData> ledger_table(const StudyResult& study, const std::vector<const CaseResult*>& group,
+                                     const std::string& test) {
+  std::vector<const CaseResult*> kept;
+  double largest = 0;
+  for (const CaseResult* result : group) {
+    const dem::Table* history = result->record->find("history");
+    if (!history || ledger_terms(*history).empty()) continue;
+    kept.push_back(result);
+    for (const LedgerTerm& term : ledger_terms(*history)) {
+      largest = std::max(largest, std::abs(last_finite(history->real(term.column))));
+    }
+  }
+  if (kept.empty()) return std::nullopt;
+  const bool bare = in_elastic_constants(kept.front()->record->table("history"));
+  const auto [factor, unit] = bare ? std::pair<double, std::string>{1e6, "10⁻⁶ k box²"} : energy_unit(largest);
+  std::vector<std::string> heads;
+  for (const CaseResult* result : kept) heads.push_back(case_label(study, *result));
+  PageData rows = new_list();
+  const auto add = [&rows](const std::string& label, const std::vector<std::string>& values, bool strong) {
+    PageData row = table_row(label, values);
+    row.set("strong", strong);
+    rows.push_back(row);
+  };
+  std::vector<double> left(kept.size(), 0);  // work less all the rest
+  bool residual = false;
+  for (const LedgerTerm& term : ledger_terms(kept.front()->record->table("history"))) {
+    std::vector<std::string> values;
+    bool some = false;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      const dem::Table& history = kept[i]->record->table("history");
+      const double value = history.has(term.column) ? last_finite(history.real(term.column)) : 0;
+      values.push_back(history.has(term.column) ? number(factor * value, 4) : "–");
+      some = some || value != 0;
+      left[i] += term.role == LedgerTerm::Role::work ? value : term.role == LedgerTerm::Role::share ? -value : 0;
+    }
+    residual = residual || term.role == LedgerTerm::Role::residual;
+    if (bare && !some) continue;  // walls that hold, or no grain that grows
+    add(term.label, values, term.role != LedgerTerm::Role::share);
+  }
+  if (!residual) {
+    std::vector<std::string> values;
+    for (const double value : left) values.push_back(number(factor * value, 4));
+    add("Residual", values, true);
+  }
+  PageData table;
+  table.set("test", capital(test));
+  table.set("unit", unit);
+  table.set("heads", cells(heads));
+  table.set("rows", rows);
+  return table;
+}
+
+// "pure_shear_spread_0_6" -> "pure shear spread 0.6"
+std::string id_words(std::string id) {
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  for (std::size_t i = 1; i + 1 < id.size(); ++i) {
+    if (id[i] == '_' && digit(id[i - 1]) && digit(id[i + 1])) id[i] = '.';
+  }
+  return words(id);
+}
+
+}  // namespace
+
+/// Whether the cases differ in a parameter: what all have alike is in the scenario.
+bool varies(const StudyResult& study, const std::string& name) {
+  std::set<std::string> values;
+  for (const CaseResult& result : study.cases) {
+    if (!result.record) continue;
+    for (const auto& [other, value] : result.record->parameters) {
+      if (other == name) values.insert(parameter_text(value));
+    }
+  }
+  return values.size() > 1;
+}
+
+std::string case_label(const StudyResult& study, const CaseResult& result) {
+  if (!result.record) return id_words(result.id);
+  std::vector<std::string> parts;
+  std::string aspect_ratio;
+  for (const auto& [name, value] : result.record->parameters) {
+    if (name == "test") continue;
+    const auto first = std::ranges::find_if(study.cases, [](const CaseResult& c) { return c.record != nullptr; });
+    const auto base = std::ranges::find(first->record->parameters, name, [](const auto& p) { return p.first; });
+    const bool usual = base != first->record->parameters.end() && base->second == value;
+    const std::string part = parameter_words(name, value);
+    if (name == "aspect_ratio") aspect_ratio = part;
+    const bool of_axis = name == "aspect_ratio" || name == "dip" || name == "confining_pressure_MPa";
+    const bool told = of_axis ? varies(study, name) : name == "mineral" || !usual;
+    if (told && !part.empty()) parts.push_back(part);
+  }
+  if (parts.empty() && !aspect_ratio.empty()) parts.push_back(aspect_ratio);
+  return parts.empty() ? capital(id_words(result.id)) : joined(parts, ", ");
+}
+
+PageData title_data(const StudyResult& study, const ReportOptions& options) {
+  const dem::Scenario& scenario = *study.scenario;
+  PageData data;
+  data.set("title", scenario.text("title").empty() ? capital(words(scenario.name())) : scenario.text("title"));
+  data.set("description", scenario.text("description"));
+  data.set("has_description", !scenario.text("description").empty());
+  data.set("scenario", scenario.name());
+  data.set("model", words(scenario.model()));
+  data.set("scale", scenario.scale());
+  data.set("seed", std::to_string(scenario.seed()));
+  data.set("engine_version", options.engine_version);
+  const std::string specimen = specimen_text(study);
+  data.set("has_specimen", !specimen.empty());
+  data.set("specimen", specimen);
+  const auto with_record = std::ranges::find_if(study.cases, [](const CaseResult& c) { return c.record != nullptr; });
+  const std::string physics = with_record == study.cases.end() ? "" : with_record->record->physics_version;
+  data.set("has_physics", !physics.empty());
+  data.set("physics_version", physics);
+  const auto done = std::ranges::count_if(study.cases, [](const CaseResult& c) { return c.record != nullptr; });
+  data.set("case_count", static_cast<std::size_t>(done) == study.cases.size()
+                             ? fmt::format("{}", done)
+                             : fmt::format("{} of {}", done, study.cases.size()));
+  return data;
+}
+
+PageData cases_data(const StudyResult& study) {
+  PageData list = new_list();
+  std::vector<const CaseResult*> all;
+  for (const CaseResult& result : study.cases) all.push_back(&result);
+  for (const Repeats& repeats : columns_of(all)) {
+    const CaseResult& result = *repeats.front();
+    PageData row;
+    row.set("id", result.id);
+    row.set("failed", !result.record);
+    if (result.record) {
+      const dem::Record& record = *result.record;
+      std::vector<std::string> parameters;
+      for (const auto& [name, value] : record.parameters) {
+        const bool said = name == "test" || !varies(study, name) || (name == "seed" && repeats.size() > 1);
+        const std::string part = said ? "" : parameter_words(name, value);
+        if (!part.empty()) parameters.push_back(part);
+      }
+      if (repeats.size() > 1) {
+        std::vector<std::string> seeds;
+        for (const CaseResult* one : repeats) seeds.push_back(std::to_string(one->record->seed));
+        parameters.push_back("seeds " + listed(seeds));
+      }
+      row.set("test", test_of(record));
+      row.set("parameters", joined(parameters, ", "));
+      for (const char* name : {"particles", "contacts", "grains", "steps"}) {
+        row.set(name, record.has_result(name) ? count(record.result(name)) : "–");
+      }
+      row.set("seed", std::to_string(record.seed));
+    } else {
+      row.set("error", result.error.empty() ? "not run" : result.error);
+    }
+    list.push_back(row);
+  }
+  return list;
+}
+
+PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
+                       const std::vector<DrawnFigure>& figures) {
+  PageData list = new_list();
+  const auto add = [&](const std::string& text, const std::string& state, const DrawnFigure* figure = nullptr) {
+    PageData item;
+    item.set("text", text);
+    item.set("state", state);
+    item.set("has_figure", figure != nullptr);
+    if (figure) {
+      item.set("figure_id", std::string(figure->figure->id));
+      item.set("figure_number", std::to_string(figure->number));
+    }
+    list.push_back(item);
+  };
+  for (const CaseResult& result : study.cases) {
+    if (!result.record && !result.error.empty()) add("Case " + result.id + " failed: " + result.error, "bad");
+  }
+  std::size_t checks = 0;
+  std::size_t broken_checks = 0;
+  std::vector<std::pair<std::string, std::vector<std::string>>> broken;  // by check
+  for (const CaseResult& result : study.cases) {
+    if (!result.record) continue;
+    for (const dem::Check& check : result.record->checks) {
+      ++checks;
+      if (check.held) continue;
+      ++broken_checks;
+      auto group = std::ranges::find(broken, check.id, [](const auto& g) { return g.first; });
+      if (group == broken.end()) group = broken.insert(broken.end(), {check.id, {}});
+      group->second.push_back(result.id);
+    }
+  }
+  if (!broken.empty()) {
+    std::vector<std::string> parts;
+    for (const auto& [check, cases] : broken) parts.push_back(words(check) + " (" + joined(cases, ", ") + ")");
+    add(fmt::format("{} of {} checks did not hold: {}.", broken_checks, checks, joined(parts, "; ")), "bad");
+  } else if (checks > 0)
+    add(fmt::format("All {} checks of the runs held.", checks), "good");
+  const auto number_of = [&](Verdict verdict) {
+    return std::ranges::count(comparisons.rows, verdict, &Comparison::verdict);
+  };
+  if (!comparisons.rows.empty()) {
+    std::vector<std::string> missed;
+    for (const Comparison& row : comparisons.rows) {
+      if (row.verdict != Verdict::missed) continue;
+      missed.push_back(row.quantity + (row.deviation ? " (" + deviation_text(row) + ")" : ""));
+    }
+    std::string text =
+        fmt::format("{} of {} published numbers and trends are met", number_of(Verdict::met), comparisons.rows.size());
+    if (number_of(Verdict::not_computed) > 0)
+      text += fmt::format(", {} could not be computed", number_of(Verdict::not_computed));
+    constexpr std::size_t named = 6;
+    if (!missed.empty()) {
+      const std::size_t others = missed.size() > named ? missed.size() - named : 0;
+      text += fmt::format(", {} missed: ", missed.size());
+      missed.resize(missed.size() - others);
+      text += joined(missed, "; ") + (others > 0 ? fmt::format("; and {} more in the table", others) : "");
+    }
+    text += ".";
+    if (comparisons.scale != study.scenario->scale()) {
+      text += " The published numbers belong to the scale “" + comparisons.scale + "”.";
+    }
+    add(text, missed.empty() ? "good" : "bad");
+  }
+  for (const DrawnFigure& figure : figures) {
+    if (!figure.finding.empty()) add(figure.finding, "plain", &figure);
+  }
+  return list;
+}
+
+namespace {
+
+// The value of one case, or mean and standard deviation of several.
+std::string result_text(const Repeats& column, const std::string& name) {
+  std::vector<double> values;
+  for (const CaseResult* result : column) {
+    if (result->record->has_result(name)) values.push_back(result->record->result(name));
+  }
+  std::erase_if(values, [](double v) { return !std::isfinite(v); });
+  if (values.empty()) return "–";
+  if (values.size() == 1) return shown_result(name, values.front());
+  const auto n = static_cast<double>(values.size());
+  double mean = 0, square = 0;
+  for (const double v : values) mean += v / n;
+  for (const double v : values) square += (v - mean) * (v - mean);
+  if (square == 0) return shown_result(name, values.front());
+  return shown_result(name, mean) + " ± " + shown_result(name, std::sqrt(square / (n - 1)));
+}
+
+}  // namespace
+
+PageData results_data(const StudyResult& study) {
+  PageData tables = new_list();
+  for (const auto& [test, group] : by_test(study)) {
+    const std::vector<Repeats> columns = columns_of(group);
+    const bool repeated = columns.size() < group.size();
+    const std::size_t widest = repeated ? 4 : 8;  // columns that fit on a page
+    std::vector<std::string> names;
+    std::set<std::string> seen;
+    for (const CaseResult* result : group) {
+      for (const auto& [name, value] : result->record->results) {
+        if (!in_a_figure(name) && seen.insert(name).second) names.push_back(name);
+      }
+    }
+    for (std::size_t from = 0; from < columns.size(); from += widest) {
+      const std::span<const Repeats> shown(columns.data() + from, std::min(widest, columns.size() - from));
+      std::vector<std::string> heads;
+      for (const Repeats& column : shown) {
+        heads.push_back(case_label(study, *column.front()) +
+                        (column.size() > 1 ? fmt::format(" ({} seeds)", column.size()) : ""));
+      }
+      PageData rows = new_list();
+      for (const std::string& name : names) {
+        const auto [words_of_name, unit] = result_name(name);
+        std::vector<std::string> values;
+        for (const Repeats& column : shown) values.push_back(result_text(column, name));
+        rows.push_back(table_row(unit.empty() ? words_of_name : words_of_name + " (" + unit + ")", values));
+      }
+      PageData table;
+      table.set("test", capital(test.empty() ? "results" : words(test)));
+      table.set("heads", cells(heads));
+      table.set("rows", rows);
+      tables.push_back(table);
+    }
+  }
+  return tables;
+}
+
+PageData comparisons_data(const Comparisons& comparisons) {
+  if (comparisons.rows.empty()) return PageData{PageData::type::list};
+  PageData rows = new_list();
+  for (const Comparison& row : comparisons.rows) {
+    PageData item;
+    item.set("quantity", row.quantity);
+    item.set("source", row.source);
+    item.set("statement", row.statement);
+    item.set("has_statement", !row.statement.empty());
+    item.set("published_value", published_text(row));
+    item.set("published_detail", row.published_detail);
+    item.set("has_published_detail", !row.published_detail.empty());
+    item.set("computed_value", computed_text(row));
+    item.set("detail", row.detail);
+    item.set("has_detail", !row.detail.empty());
+    item.set("deviation", deviation_text(row));
+    item.set("tolerance", tolerance_text(row));
+    item.set("verdict", std::string(verdict_word(row.verdict)));
+    item.set("verdict_class", row.verdict == Verdict::met ? "met" : row.verdict == Verdict::missed ? "missed" : "open");
+    rows.push_back(item);
+  }
+  PageData block;
+  block.set("paper", comparisons.paper);
+  block.set("published_scale", comparisons.scale);
+  block.set("rows", rows);
+  PageData list = new_list();
+  list.push_back(block);
+  return list;
+}
+
+PageData ledger_data(const StudyResult& study) {
+  PageData list = new_list();
+  for (const auto& [test, group] : by_test(study)) {
+    constexpr std::size_t widest = 7;  // columns that fit on a page
+    for (std::size_t from = 0; from < group.size(); from += widest) {
+      const auto to = std::min(group.size(), from + widest);
+      const std::vector<const CaseResult*> shown(group.begin() + static_cast<std::ptrdiff_t>(from),
+                                                 group.begin() + static_cast<std::ptrdiff_t>(to));
+      if (const auto table = ledger_table(study, shown, test)) list.push_back(*table);
+    }
+  }
+  return list;
+}
+
+PageData checks_data(const StudyResult& study) {
+  // By check, so that its meaning is said once.
+  std::vector<std::pair<const CaseResult*, const dem::Check*>> all;
+  for (const CaseResult& result : study.cases) {
+    if (!result.record) continue;
+    for (const dem::Check& check : result.record->checks) all.emplace_back(&result, &check);
+  }
+  std::ranges::stable_sort(all, {}, [](const auto& entry) { return entry.second->id; });
+  PageData list = new_list();
+  std::string_view last;
+  for (const auto& [result, entry] : all) {
+    const dem::Check& check = *entry;
+    PageData item;
+    item.set("case", result->id);
+    item.set("check", capital(words(check.id)));
+    item.set("meaning", check.meaning);
+    item.set("has_meaning", check.id != last);
+    last = check.id;
+    item.set("value", number(check.value, 2));
+    item.set("limit", number(check.limit, 2));
+    item.set("verdict", check.held ? "held" : "broken");
+    item.set("verdict_class", check.held ? "met" : "missed");
+    list.push_back(item);
+  }
+  return list;
+}
+
+PageData notes_data(const StudyResult& study) {
+  PageData list = new_list();
+  for (const CaseResult& result : study.cases) {
+    if (!result.record) continue;
+    for (const std::string& note : result.record->notes) {
+      PageData item;
+      item.set("case", result.id);
+      item.set("note", note);
+      list.push_back(item);
+    }
+  }
+  return list;
+}
+
+}  // namespace reports

@@ -1,0 +1,33 @@
+#pragma once
+// The parts of the page as data for the template (assets/page/report.html). One function a part; names of fields are the
+// names in the template.
+#include <string>
+#include <vector>
+
+#include <kainjow/mustache.hpp>
+
+#include "reports/output/drawing.h"
+#include "reports/published/published.h"
+#include "reports/output/report.h"
+
+namespace reports {
+
+using PageData = kainjow::mustache::data;
+
+PageData title_data(const StudyResult& study, const ReportOptions& options);  ///< title block
+PageData cases_data(const StudyResult& study);                                ///< what was run
+PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
+                       const std::vector<DrawnFigure>& figures);  ///< what came out, in short
+PageData results_data(const StudyResult& study);                  ///< a table of results for each test
+PageData comparisons_data(const Comparisons& comparisons);
+/// Pictures are read from `folder` and embedded; named when it is empty.
+PageData figures_data(const std::vector<DrawnFigure>& figures, const std::filesystem::path& folder);
+PageData ledger_data(const StudyResult& study);
+PageData checks_data(const StudyResult& study);
+PageData notes_data(const StudyResult& study);
+
+/// "AR 2", "AR 1, seed scale 0.675": the aspect ratio and what else sets a case apart from the first one of the study; the
+/// id when there is neither, or no record.
+std::string case_label(const StudyResult& study, const CaseResult& result);
+
+}  // namespace reports

@@ -1,0 +1,26 @@
+#pragma once
+// Rows of tables as data for the template (assets/page/report.html).
+#include <string>
+#include <vector>
+
+#include "reports/page/page_parts.h"
+
+namespace reports {
+
+[[nodiscard]] inline PageData new_list() { return PageData{PageData::type::list}; }
+
+/// {"cell": text} for each text.
+[[nodiscard]] inline PageData cells(const std::vector<std::string>& texts) {
+  PageData list = new_list();
+  for (const std::string& text : texts) list.push_back(PageData{"cell", text});
+  return list;
+}
+
+[[nodiscard]] inline PageData table_row(const std::string& name, const std::vector<std::string>& values) {
+  PageData row;
+  row.set("name", name);
+  row.set("cells", cells(values));
+  return row;
+}
+
+}  // namespace reports
