@@ -1,8 +1,7 @@
 // The table of models: a model is one entry here.
 #include "engine/lattice/model.h"
-#include "engine/sheet/model.h"
 #include "engine/model/model.h"
-#include "engine/study/study.h"
+#include "engine/sheet/model.h"
 #include "engine/texture/model.h"
 
 namespace dem {
@@ -11,7 +10,5 @@ std::span<const Model> models() {
   static const std::vector<Model> table = {texture::model(), lattice::model(), sheet::model()};
   return table;
 }
-
-const Model& model(std::string_view name) { return find_model(models(), name); }
 
 }  // namespace dem

@@ -15,9 +15,4 @@ double StudyResult::published_value(std::string_view id) const {
   return found == published.end() ? std::nan("") : found->low;
 }
 
-bool of_published_rock(const StudyResult& study) {
-  return !study.scenario || study.scenario->model() != "grain_texture" ||
-         study.scenario->text("rock") == "Lac du Bonnet granite";
-}
-
 }  // namespace reports

@@ -8,23 +8,17 @@
 #include <variant>
 #include <vector>
 
-#include "engine/core/record.h"
+#include "engine/analysis/cases.h"
 #include "engine/scenario/scenario.h"
 #include "render/chart/chart.h"
 #include "render/scene/scene.h"
-
-namespace dem::analysis {}
 
 namespace reports {
 
 namespace analysis = dem::analysis;
 
-/// A case of the study as figures see it: its record, or why there is none.
-struct CaseResult {
-  std::string id;
-  const dem::Record* record = nullptr;  ///< nullptr: the case failed or was left out (--case)
-  std::string error;
-};
+/// A case of the study as figures see it: its parameters, its record, or why there is none.
+using analysis::CaseResult;
 
 /// A number that a paper states: a value, or a range.
 struct PublishedNumber {
@@ -35,7 +29,11 @@ struct PublishedNumber {
 struct StudyResult {
   const dem::Scenario* scenario = nullptr;
   std::vector<CaseResult> cases;
-  /// What figures show beside ours, of assets/papers; nothing for a rock that no paper is about.
+  std::span<const dem::Quantity> quantities{};  ///< what the model declares
+  std::span<const dem::Parameter> parameters{};
+  /// Whether a paper is about what is studied: the model's rock. For another rock nothing published stands beside ours.
+  bool of_a_paper = true;
+  /// What figures show beside ours, of assets/papers.
   std::vector<PublishedNumber> published{};
 
   [[nodiscard]] const dem::Record* find(std::string_view id) const;
@@ -85,14 +83,8 @@ struct Figure {
   std::string_view title;
   std::string_view source;  ///< "Zhao et al. 2021, Fig. 15a"
   std::string_view model;   ///< records it needs
-  /// Scenarios that show it by default, by name; a scenario's key `figures` overrides.
-  std::vector<std::string_view> scenarios;
   FigureContent (*make)(const StudyResult&);
 };
-
-/// Whether the study is of the rock that its model's paper is about (key `rock` of the grain texture model). For another
-/// rock nothing published stands beside its results.
-bool of_published_rock(const StudyResult& study);
 
 std::span<const Figure> figures();  ///< reports/figures/table.cpp
 

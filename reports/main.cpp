@@ -19,6 +19,7 @@
 #include "reports/commands/cli.h"
 #include "reports/output/drawing.h"
 #include "reports/output/report.h"
+#include "reports/published/papers.h"
 
 namespace {
 
@@ -90,6 +91,7 @@ std::vector<dem::Study> read_studies(const cli::CommandLine& line) {
     dem::Study study = dem::read_study(file, line.scale, line.overrides, dem::models());
     dem::check_case(study, line.only_case);
     reports::chosen_figures({&study.scenario, {}}, line.figure);
+    reports::check_topics(study.scenario, assets_folder() / "papers");
     if (!folders.insert(study.folder()).second) {
       throw dem::InputError(dem::Location{file, 0, 0}, {}, "another scenario of the same name is given",
                             "run them one by one, with different --output folders");
@@ -173,9 +175,14 @@ bool run(const dem::Study& study, const cli::CommandLine& line, dem::ProgressPri
   progress.start(static_cast<int>(study.cases.size()));
   const std::vector<dem::CaseOutcome> outcomes = dem::run_study(study, options, listener(progress));
 
-  reports::StudyResult result{&study.scenario, {}};
-  for (const dem::CaseOutcome& outcome : outcomes) {
-    result.cases.push_back({outcome.id, outcome.record ? &*outcome.record : nullptr, outcome.error});
+  reports::StudyResult result{.scenario = &study.scenario,
+                              .cases = {},
+                              .quantities = study.model->quantities(),
+                              .parameters = study.model->parameters()};
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const dem::CaseOutcome& outcome = outcomes[i];
+    result.cases.push_back(
+        {outcome.id, study.cases[i].parameters, outcome.record ? &*outcome.record : nullptr, outcome.error});
   }
   reports::ReportOptions report;
   report.folder = line.output / study.folder();

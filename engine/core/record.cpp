@@ -1,5 +1,7 @@
 #include "engine/core/record.h"
 
+#include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace dem {
@@ -57,21 +59,60 @@ const Table& Record::table(std::string_view name) const {
   if (!found) missing("record of " + case_id, name);
   return *found;
 }
-bool Record::has_result(std::string_view name) const { return find_named(results, name, by_first) != nullptr; }
-double Record::result(std::string_view name) const {
-  const auto* found = find_named(results, name, by_first);
-  if (!found) missing("record of " + case_id, name);
-  return found->second;
+
+namespace {
+
+// "mineral_share.*" and "quartz" -> "mineral_share.quartz"
+std::string member_id(const Quantity& family, std::string_view member) {
+  if (!family.family()) throw std::logic_error("'" + std::string(family.id) + "' has no members");
+  return std::string(family.id.substr(0, family.id.size() - 1)) + std::string(member);
+}
+
+void add(Record& record, std::string id, double value) {
+  const auto covers = [&](const Quantity& q) { return q.covers(id); };
+  if (std::ranges::none_of(record.quantities, covers)) {
+    throw std::logic_error("the model '" + record.model + "' does not declare the result '" + id + "'");
+  }
+  if (record.find_result(id)) throw std::logic_error("the result '" + id + "' is put twice");
+  record.results.emplace_back(std::move(id), value);
+}
+
+}  // namespace
+
+void Record::put(const Quantity& quantity, double value) {
+  if (quantity.family()) throw std::logic_error("'" + std::string(quantity.id) + "' needs a member");
+  add(*this, std::string(quantity.id), value);
+}
+void Record::put(const Quantity& family, std::string_view member, double value) {
+  add(*this, member_id(family, member), value);
+}
+const double* Record::find_result(std::string_view id) const {
+  const auto* found = find_named(results, id, by_first);
+  return found ? &found->second : nullptr;
+}
+bool Record::has(const Quantity& quantity) const { return find_result(quantity.id) != nullptr; }
+double Record::value(const Quantity& quantity) const {
+  const double* found = find_result(quantity.id);
+  if (!found) missing("record of " + case_id, quantity.id);
+  return *found;
+}
+double Record::value_or_nan(const Quantity& quantity) const {
+  const double* found = find_result(quantity.id);
+  return found ? *found : std::numeric_limits<double>::quiet_NaN();
+}
+double Record::value_or_nan(const Quantity& family, std::string_view member) const {
+  const double* found = find_result(member_id(family, member));
+  return found ? *found : std::numeric_limits<double>::quiet_NaN();
 }
 double Record::number(std::string_view parameter) const {
-  const auto* found = find_named(parameters, parameter, by_first);
-  const double* value = found ? std::get_if<double>(&found->second) : nullptr;
+  const ParameterValue* found = find_value(parameters, parameter);
+  const double* value = found ? std::get_if<double>(found) : nullptr;
   if (!value) missing("parameters of " + case_id, parameter);
   return *value;
 }
 std::string Record::text(std::string_view parameter) const {
-  const auto* found = find_named(parameters, parameter, by_first);
-  const std::string* value = found ? std::get_if<std::string>(&found->second) : nullptr;
+  const ParameterValue* found = find_value(parameters, parameter);
+  const std::string* value = found ? std::get_if<std::string>(found) : nullptr;
   if (!value) missing("parameters of " + case_id, parameter);
   return *value;
 }

@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "engine/core/quantity.h"
+
 namespace dem {
 
 /// One named quantity of a table. `width` values a row (1: scalar, 3: vector), row by row.
@@ -53,8 +55,10 @@ struct Record {
   std::string physics_version;  ///< of the model's engine
   std::uint64_t seed = 0;
   /// What sets this case apart: {"test", "compression"}, {"aspect_ratio", 2.0}.
-  std::vector<std::pair<std::string, std::variant<double, std::string>>> parameters;
-  /// Results by the names of summary.json, the unit in the key; a dot nests: "cracks.intra_tension", "ucs_MPa".
+  Parameters parameters;
+  /// What its model declares; results of other names are refused.
+  std::span<const Quantity> quantities;
+  /// By the ids of the quantities, in their stored units; a dot nests: "cracks.intra_tension". Use put() and value().
   std::vector<std::pair<std::string, double>> results;
   std::vector<Check> checks;
   std::vector<std::string> notes;  ///< what a reader must know about this run, a sentence each
@@ -62,8 +66,17 @@ struct Record {
 
   [[nodiscard]] const Table* find(std::string_view table) const;   ///< nullptr when absent
   [[nodiscard]] const Table& table(std::string_view table) const;  ///< throws std::out_of_range naming it
-  [[nodiscard]] bool has_result(std::string_view name) const;
-  [[nodiscard]] double result(std::string_view name) const;       ///< throws std::out_of_range naming it
+
+  /// Adds a result. Throws std::logic_error when the model does not declare it or it is there already (our defect).
+  void put(const Quantity& quantity, double value);
+  void put(const Quantity& family, std::string_view member, double value);
+  [[nodiscard]] bool has(const Quantity& quantity) const;
+  [[nodiscard]] double value(const Quantity& quantity) const;  ///< throws std::out_of_range when this case has none
+  [[nodiscard]] double value_or_nan(const Quantity& quantity) const;
+  [[nodiscard]] double value_or_nan(const Quantity& family, std::string_view member) const;
+  /// A result by its id, for tables over all of them; nullptr when absent.
+  [[nodiscard]] const double* find_result(std::string_view id) const;
+
   [[nodiscard]] double number(std::string_view parameter) const;  ///< a numeric parameter; throws as above
   [[nodiscard]] std::string text(std::string_view parameter) const;
 };

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
-#include "engine/core/archive.h"
+#include "engine/lattice/quantities.h"
+#include "engine/model/keeper.h"
 
 namespace dem::lattice {
 namespace {
@@ -22,13 +22,6 @@ struct Wanted {
   double stiffness = 1;  // on planes.stiffness
 };
 
-// 1.5 -> "1_5"
-std::string in_id(double value) {
-  std::string text = fmt::format("{:g}", value);
-  std::replace(text.begin(), text.end(), '.', '_');
-  return text;
-}
-
 CaseSpec spec_of(const Scenario& s, const Wanted& w, bool beside) {
   Scenario one = s.with("tests", std::vector<std::string>{w.test})
                      .with("block.elements_y", w.elements_y)
@@ -38,26 +31,28 @@ CaseSpec spec_of(const Scenario& s, const Wanted& w, bool beside) {
                      .with("loading.factor", w.factor * s.real("loading.factor"))
                      .with("planes.stiffness", w.stiffness * s.real("planes.stiffness"))
                      .with("elastic.method", w.method);
-  CaseSpec spec{fmt::format("{}_n_{}", w.test, w.elements_y), one, {}, {}};
+  std::string id = fmt::format("{}_n_{}", w.test, w.elements_y);
   if (beside) {
-    if (w.planes != "elastic") spec.id += "_" + w.planes;
-    if (w.stiffness != 1) spec.id += "_k" + in_id(w.stiffness);
-    if (w.moving != "both") spec.id += "_one";
-    if (w.direction != "z") spec.id += "_" + w.direction;
-    if (w.method != "rest") spec.id += "_" + w.method;
-    if (w.factor != 1) spec.id += "_x" + in_id(w.factor);
+    if (w.planes != "elastic") id += "_" + w.planes;
+    if (w.stiffness != 1) id += "_k" + id_part(w.stiffness);
+    if (w.moving != "both") id += "_one";
+    if (w.direction != "z") id += "_" + w.direction;
+    if (w.method != "rest") id += "_" + w.method;
+    if (w.factor != 1) id += "_x" + id_part(w.factor);
   }
   (void)read_settings(one);  // bad values are found before anything runs
-  std::vector<std::string> prefixes{"rock.", "correction.", "block.", "motion.", "loading.", "measure.", "tests"};
-  if (w.test == "elastic") prefixes.emplace_back("elastic.");
-  if (one.real("planes.stiffness") != 1) prefixes.emplace_back("planes.");
-  spec.content = fmt::format("{}\n{}", version, one.canonical(prefixes));
-  spec.parameters = {{"test", w.test},           {"elements_y", static_cast<double>(w.elements_y)},
-                     {"planes", w.planes},       {"moving", w.moving},
-                     {"direction", w.direction}, {"factor", w.factor}};
-  if (w.test == "elastic") spec.parameters.emplace_back("method", w.method);
-  if (w.stiffness != 1) spec.parameters.emplace_back("stiffness", w.stiffness);
-  return spec;
+  const auto of = [](const Parameter& parameter, ParameterValue value) {
+    return std::pair{std::string(parameter.id), std::move(value)};
+  };
+  Parameters parameters = {{"test", w.test},
+                           of(parameter::elements_y, static_cast<double>(w.elements_y)),
+                           of(parameter::planes, w.planes),
+                           of(parameter::moving, w.moving),
+                           of(parameter::direction, w.direction),
+                           of(parameter::factor, w.factor),
+                           of(parameter::stiffness, w.stiffness)};
+  if (w.test == "elastic") parameters.push_back(of(parameter::method, w.method));
+  return make_case(model(), std::move(id), std::move(one), std::move(parameters), {w.test});
 }
 
 std::vector<CaseSpec> cases(const Scenario& s) {
@@ -85,61 +80,27 @@ std::vector<CaseSpec> cases(const Scenario& s) {
   return all;
 }
 
-Record head_of(const CaseSpec& spec, const Settings& settings) {
-  Record r;
-  r.model = "lattice";
-  r.scenario = spec.scenario.name();
-  r.case_id = spec.id;
-  r.content = spec.content;
-  r.physics_version = version;
-  r.seed = spec.scenario.seed();
-  r.parameters = spec.parameters;
-  const Micro& m = settings.micro;
-  r.results = {{"normal_stiffness_N_per_m", m.kn},
-               {"shear_stiffness_N_per_m", m.ks},
-               {"breaking_displacement_m", m.xb},
-               {"initial_shear_resistance_N", m.fs0},
-               {"contact_friction", m.mu},
-               {"element_mass_kg", m.mass},
-               {"opening_stress_theory_MPa", 1e-6 * opening_stress(m)}};
-  return r;
+void add_micro(Record& r, const Micro& m) {
+  r.put(quantity::normal_stiffness, m.kn);
+  r.put(quantity::shear_stiffness, m.ks);
+  r.put(quantity::breaking_displacement, m.xb);
+  r.put(quantity::initial_shear_resistance, m.fs0);
+  r.put(quantity::contact_friction, m.mu);
+  r.put(quantity::element_mass, m.mass);
+  r.put(quantity::opening_stress_theory, 1e-6 * opening_stress(m));
 }
-
-// Saves the test now and then, and when asked to stop.
-class Keeper {
- public:
-  Keeper(const CaseSpec& spec, RunContext& context) : spec_(spec), context_(context), last_(Clock::now()) {}
-
-  void look(const StrengthTest& test) {
-    const bool stop = context_.stopped();
-    const double since = std::chrono::duration<double>(Clock::now() - last_).count();
-    if (!stop && since < context_.checkpoint_seconds) return;
-    if (!context_.checkpoint.empty()) save_checkpoint(context_.checkpoint, spec_.content, test.state());
-    if (stop) throw Interrupted{};
-    last_ = Clock::now();
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  const CaseSpec& spec_;
-  RunContext& context_;
-  Clock::time_point last_;
-};
 
 void run_strength(Record& record, const CaseSpec& spec, const Settings& settings, const Block& block,
                   RunContext& context) {
   StrengthTest test(block, settings.setup, settings.loading);
-  if (!context.checkpoint.empty()) {
-    StrengthTest::State state = test.state();
-    if (load_checkpoint(context.checkpoint, spec.content, state).loaded) test.restore(state);
-  }
   Keeper keeper(spec, context);
+  if (StrengthTest::State state = test.state(); keeper.resume(state)) test.restore(state);
   const bool tension = settings.test == "tension";
   const double strength = tension ? settings.rock.tensile_strength : settings.rock.compressive_strength;
   const double expected = strength / settings.rock.young_modulus;
   for (int i = 0; test.advance(); ++i) {
     if (i % 10 != 0) continue;
-    keeper.look(test);
+    keeper.look([&] { return test.state(); });
     const double strain = std::abs(test.solver().strain());
     double done = 0.95 * std::min(1.0, strain / (1.3 * expected));
     if (test.failed()) {
@@ -171,7 +132,8 @@ Record run(const CaseSpec& spec, RunContext& context) {
   // Two threads meet twice a step: below about a thousand elements one is faster.
   const Block block = make_block(settings.shape, settings.micro.diameter);
   settings.setup.threads = block.site.size() < 1000 ? 1 : context.threads;
-  Record record = head_of(spec, settings);
+  Record record = new_record(model(), spec);
+  add_micro(record, settings.micro);
   if (settings.test == "elastic") {
     run_elastic(record, settings, block, context);
   } else {
@@ -182,6 +144,6 @@ Record run(const CaseSpec& spec, RunContext& context) {
 
 }  // namespace
 
-Model model() { return {"lattice", version, keys, cases, run}; }
+Model model() { return {"lattice", version, keys, quantities, parameters, cases, run}; }
 
 }  // namespace dem::lattice

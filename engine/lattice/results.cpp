@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/lattice/model.h"
+#include "engine/lattice/quantities.h"
 
 namespace dem::lattice {
 namespace {
@@ -131,32 +132,32 @@ void tension_results(Record& r, const Settings& s, const StrengthTest& test, con
   const auto& h = test.history();
   const double dt = s.setup.time_step;
   const double strength = strength_of(test, m);
-  r.results.emplace_back("tensile_strength_MPa", 1e-6 * strength);
-  r.results.emplace_back("tensile_error_percent", 100 * (strength / s.rock.tensile_strength - 1));
-  r.results.emplace_back("peak_strain", m.strain(test.peak()));
+  r.put(quantity::tensile_strength, 1e-6 * strength);
+  r.put(quantity::tensile_strength_error, 100 * (strength / s.rock.tensile_strength - 1));
+  r.put(quantity::peak_strain, m.strain(test.peak()));
   const auto [first, last] = main_burst(test.solver().cracks());
-  r.results.emplace_back("failure_time_s", static_cast<double>(first) * dt);
-  r.results.emplace_back("crack_duration_s", static_cast<double>(last - first) * dt);
+  r.put(quantity::failure_time, static_cast<double>(first) * dt);
+  r.put(quantity::crack_duration, static_cast<double>(last - first) * dt);
   const double width = s.shape.ny * s.micro.diameter;  // the paper's 1.2 cm for 12 elements
-  if (last > first) r.results.emplace_back("crack_speed_m_per_s", width / (static_cast<double>(last - first) * dt));
+  if (last > first) r.put(quantity::crack_speed, width / (static_cast<double>(last - first) * dt));
   double kinetic = 0, share = 0;
   for (const Sample& x : h) {
     if (x.kinetic <= kinetic || x.step < first) continue;
     kinetic = x.kinetic;
     share = x.kinetic / x.work;
   }
-  r.results.emplace_back("kinetic_share", share);
+  r.put(quantity::kinetic_share, share);
   double before_parting = 0;
   for (const Sample& x : h) {
     if (x.step <= last) before_parting = x.frictional / x.work;
   }
-  r.results.emplace_back("frictional_share_at_parting", before_parting);
-  r.results.emplace_back("frictional_share", h.back().frictional / h.back().work);
+  r.put(quantity::frictional_share_at_parting, before_parting);
+  r.put(quantity::frictional_share, h.back().frictional / h.back().work);
   if (test.friction_from() >= 0) {
-    r.results.emplace_back("friction_after_last_opening_s", static_cast<double>(test.friction_from() - last) * dt);
+    r.put(quantity::friction_after_last_opening, static_cast<double>(test.friction_from() - last) * dt);
   }
-  r.results.emplace_back("viscous_share_of_heat", h.back().viscous / h.back().heat());
-  r.results.emplace_back("viscous_share_after_parting", (1 - sample_from(h, last + 1).viscous / h.back().viscous));
+  r.put(quantity::viscous_share_of_heat, h.back().viscous / h.back().heat());
+  r.put(quantity::viscous_share_after_parting, (1 - sample_from(h, last + 1).viscous / h.back().viscous));
 }
 
 // The loading step before the peak in which most bonds opened: A1 of the paper's Fig. 5.
@@ -188,9 +189,9 @@ void compression_results(Record& r, const Settings& s, const StrengthTest& test,
   const auto& h = test.history();
   const double dt = s.setup.time_step;
   const double strength = strength_of(test, m);
-  r.results.emplace_back("ucs_MPa", 1e-6 * strength);
-  r.results.emplace_back("ucs_error_percent", 100 * (strength / s.rock.compressive_strength - 1));
-  r.results.emplace_back("peak_strain", m.strain(test.peak()));
+  r.put(quantity::compressive_strength, 1e-6 * strength);
+  r.put(quantity::compressive_strength_error, 100 * (strength / s.rock.compressive_strength - 1));
+  r.put(quantity::peak_strain, m.strain(test.peak()));
   const auto before_first = [&](auto Sample::*count) {
     double stress = std::numeric_limits<double>::quiet_NaN();
     for (const Sample& x : h) {
@@ -199,13 +200,13 @@ void compression_results(Record& r, const Settings& s, const StrengthTest& test,
     }
     return 1e-6 * stress;
   };
-  r.results.emplace_back("first_opening_MPa", before_first(&Sample::opening));
-  r.results.emplace_back("first_sliding_MPa", before_first(&Sample::sliding));
+  r.put(quantity::first_opening, before_first(&Sample::opening));
+  r.put(quantity::first_sliding, before_first(&Sample::sliding));
   const Opening a1 = largest_opening(h, test.peak().step, m);
-  r.results.emplace_back("a1_MPa", 1e-6 * m.stress(h[a1.before]));
-  r.results.emplace_back("a1_strain", m.strain(h[a1.before]));
-  r.results.emplace_back("a1_after_MPa", 1e-6 * a1.low);
-  r.results.emplace_back("a1_time_s", h[a1.before].time);
+  r.put(quantity::a1_stress, 1e-6 * m.stress(h[a1.before]));
+  r.put(quantity::a1_strain, m.strain(h[a1.before]));
+  r.put(quantity::a1_stress_after, 1e-6 * a1.low);
+  r.put(quantity::a1_time, h[a1.before].time);
 
   // C1 to C2: the bonds that slide at the failure, from the peak on.
   std::int64_t first = -1, last = -1;
@@ -218,28 +219,26 @@ void compression_results(Record& r, const Settings& s, const StrengthTest& test,
     last = slides[slides.size() * 99 / 100];  // all but the last hundredth: single bonds break long after
   }
   const Sample &c1 = sample_from(h, first - 1), &c2 = sample_from(h, last + 1);
-  r.results.emplace_back("sliding_start_s", static_cast<double>(first) * dt);
-  r.results.emplace_back("sliding_duration_s", static_cast<double>(last - first) * dt);
-  r.results.emplace_back(
-      "normal_share_of_sliding_heat",
-      (c2.breaking_normal - c1.breaking_normal) /
-          std::max(1e-300, c2.breaking_normal + c2.breaking_shear - c1.breaking_normal - c1.breaking_shear));
-  r.results.emplace_back("frictional_share_after_sliding", (1 - c2.frictional / std::max(1e-300, h.back().frictional)));
+  r.put(quantity::sliding_start, static_cast<double>(first) * dt);
+  r.put(quantity::sliding_duration, static_cast<double>(last - first) * dt);
+  r.put(quantity::normal_share_of_sliding_heat,
+        (c2.breaking_normal - c1.breaking_normal) /
+            std::max(1e-300, c2.breaking_normal + c2.breaking_shear - c1.breaking_normal - c1.breaking_shear));
+  r.put(quantity::frictional_share_after_sliding, (1 - c2.frictional / std::max(1e-300, h.back().frictional)));
   double kinetic = 0, elastic_least = test.peak().elastic();
   for (const Sample& x : h) {
     if (x.step < test.peak().step) continue;
     kinetic = std::max(kinetic, x.kinetic);
     elastic_least = std::min(elastic_least, x.elastic());
   }
-  r.results.emplace_back("kinetic_share", kinetic / test.peak().elastic());
-  r.results.emplace_back("elastic_left_share", elastic_least / test.peak().elastic());
-  r.results.emplace_back("viscous_share_of_heat", (h.back().viscous - c1.viscous) / (h.back().heat() - c1.heat()));
+  r.put(quantity::kinetic_share, kinetic / test.peak().elastic());
+  r.put(quantity::elastic_left_share, elastic_least / test.peak().elastic());
+  r.put(quantity::viscous_share_of_heat, (h.back().viscous - c1.viscous) / (h.back().heat() - c1.heat()));
 }
 
-void common_results(Record& r, const Block& block, std::int64_t steps) {
-  r.results.emplace_back("particles", static_cast<double>(block.site.size()));
-  r.results.emplace_back("contacts", static_cast<double>(block.bonds.size()));
-  r.results.emplace_back("steps", static_cast<double>(steps));
+void add_size(Record& r, const Block& block) {
+  r.put(quantity::particles, static_cast<double>(block.site.size()));
+  r.put(quantity::contacts, static_cast<double>(block.bonds.size()));
 }
 
 }  // namespace
@@ -270,10 +269,11 @@ void add_strength(Record& r, const Settings& s, const Block& block, const Streng
     compression_results(r, s, test, m);
   }
   const Sample& end = test.history().back();
-  r.results.emplace_back("cracks.opening", static_cast<double>(end.opening));
-  r.results.emplace_back("cracks.sliding", static_cast<double>(end.sliding));
-  r.results.emplace_back("energy_residual", test.largest_residual());
-  common_results(r, block, test.solver().step());
+  r.put(quantity::cracks_opening, static_cast<double>(end.opening));
+  r.put(quantity::cracks_sliding, static_cast<double>(end.sliding));
+  r.put(quantity::energy_residual, test.largest_residual());
+  add_size(r, block);
+  r.put(quantity::steps, static_cast<double>(test.solver().step()));
   constexpr double limit = 1e-3;
   r.checks.push_back(
       {"energy_residual", test.largest_residual(), limit, test.largest_residual() <= limit,
@@ -305,14 +305,13 @@ void add_elastic(Record& r, const Settings& s, const Block& block, const std::ve
     e_error += std::abs(modulus.back() / s.rock.young_modulus - 1) / static_cast<double>(points.size());
     nu_error += std::abs(nu.back() / s.rock.poisson_ratio - 1) / static_cast<double>(points.size());
   }
-  r.results.emplace_back("young_modulus_GPa", 1e-9 * modulus.front());
-  r.results.emplace_back("poisson_ratio", nu.front());
-  r.results.emplace_back("young_modulus_error_percent", 100 * e_error);
-  if (s.rock.poisson_ratio > 0) r.results.emplace_back("poisson_ratio_error_percent", 100 * nu_error);
-  r.results.emplace_back("young_modulus_at_largest_strain_GPa", 1e-9 * modulus.back());
-  r.results.emplace_back("poisson_ratio_at_largest_strain", nu.back());
-  common_results(r, block, 0);
-  r.results.pop_back();
+  r.put(quantity::young_modulus, 1e-9 * modulus.front());
+  r.put(quantity::poisson_ratio, nu.front());
+  r.put(quantity::young_modulus_error, 100 * e_error);
+  if (s.rock.poisson_ratio > 0) r.put(quantity::poisson_ratio_error, 100 * nu_error);
+  r.put(quantity::young_modulus_at_largest_strain, 1e-9 * modulus.back());
+  r.put(quantity::poisson_ratio_at_largest_strain, nu.back());
+  add_size(r, block);
   t.add("axial_strain", "1", std::move(strain));
   t.add("strain_between_planes", "1", std::move(between));
   t.add("young_modulus", "Pa", std::move(modulus));

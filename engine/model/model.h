@@ -10,6 +10,7 @@
 
 #include "engine/core/record.h"
 #include "engine/core/turns.h"
+#include "engine/model/case.h"
 #include "engine/scenario/scenario.h"
 
 namespace dem {
@@ -43,28 +44,22 @@ struct RunContext {
 /// Thrown by a case that was asked to stop; its checkpoint is written.
 struct Interrupted {};
 
-/// One specimen in one test.
-struct CaseSpec {
-  std::string id;       ///< "compression_ar_2"
-  Scenario scenario;    ///< resolved, with the swept values of this case put in
-  std::string content;  ///< canonical text of everything the result depends on, seed and physics version included
-  std::vector<std::pair<std::string, std::variant<double, std::string>>> parameters;
-  int threads = 1;  ///< that serve it better than a case beside it serves the study (a case that fills the cache)
-};
-
 /// One model of the program; see models().
 struct Model {
-  std::string_view name;             ///< the scenario's `model`
-  std::string_view physics_version;  ///< raised whenever results change; part of every content key
-  std::span<const Key> (*keys)();    ///< its scenario keys
+  std::string_view name;                       ///< the scenario's `model`
+  std::string_view physics_version;            ///< raised whenever results change; part of every content key
+  std::span<const Key> (*keys)();              ///< its scenario keys
+  std::span<const Quantity> (*quantities)();   ///< what its cases give
+  std::span<const Parameter> (*parameters)();  ///< what its cases differ in
   /// The cases of a scenario, in report order. Throws InputError for values that are wrong together.
   std::vector<CaseSpec> (*cases)(const Scenario&);
   /// Simulates a case. Throws CaseError when it fails, Interrupted when stopped.
   Record (*run)(const CaseSpec&, RunContext&);
 };
 
-/// The explicit table of models (engine/study/models.cpp).
+/// The explicit table of models (engine/models.cpp).
 std::span<const Model> models();
-const Model& model(std::string_view name);  ///< throws InputError listing the known names
+/// Throws InputError listing the known names.
+const Model& find_model(std::span<const Model> models, std::string_view name);
 
 }  // namespace dem

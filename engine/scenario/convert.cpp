@@ -70,7 +70,7 @@ double real_value(const Place& place, const toml::node& node) {
     si = bare_number(place, node);
   } else if (const auto* text = node.as_string()) {
     try {
-      si = quantity(text->get(), key.unit);
+      si = read_quantity(text->get(), key.unit);
     } catch (const InputError& error) {
       place.refuse(error.what(), {});
     }

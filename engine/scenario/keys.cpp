@@ -43,26 +43,42 @@ std::string limit_text(const Key& key) {
 
 std::span<const Key> common_keys() {
   static const std::vector<Key> keys = {
-      {.path = "model", .type = KeyType::text, .help = "the model that simulates the cases"},
+      {.path = "model", .type = KeyType::text, .affects = Affects::cases, .help = "the model that simulates the cases"},
       {.path = "include",
        .type = KeyType::text,
        .standard = "\"\"",
+       .affects = Affects::cases,
        .help = "a file of keys to start from, such as a rock; this file's keys and lists go over them"},
-      {.path = "title", .type = KeyType::text, .standard = "\"\"", .help = "title of the report"},
+      {.path = "title",
+       .type = KeyType::text,
+       .standard = "\"\"",
+       .affects = Affects::drawing,
+       .help = "title of the report"},
       {.path = "description",
        .type = KeyType::text,
        .standard = "\"\"",
+       .affects = Affects::drawing,
        .help = "what the study shows, a paragraph at the head of the report"},
       {.path = "seed",
        .type = KeyType::integer,
        .low = 0,
        .high = 9007199254740992.0,
        .standard = "1",
+       .affects = Affects::specimen,
        .help = "of all random numbers; another seed is another specimen"},
       {.path = "figures",
        .type = KeyType::texts,
        .standard = "[]",
-       .help = "ids of the figures to draw (see --list-figures); empty: those that belong to the scenario's name"},
+       .affects = Affects::drawing,
+       .help =
+           "ids of the figures to draw (see --list-figures); empty: those of the model that have something to draw"},
+      {.path = "published",
+       .type = KeyType::texts,
+       .standard = "[]",
+       .affects = Affects::drawing,
+       .help = "topics of the paper whose numbers stand beside ours (assets/papers); empty: every number that the "
+               "cases can "
+               "be compared with"},
   };
   return keys;
 }

@@ -45,6 +45,10 @@ std::string written(const std::vector<T>& values) {
   return text + "]";
 }
 
+std::string line_of(const std::string& path, const Value& value) {
+  return path + " = " + std::visit([](const auto& v) { return written(v); }, value) + "\n";
+}
+
 }  // namespace
 
 Scenario Scenario::read(const std::string& file, std::string_view scale, std::span<const std::string> overrides,
@@ -85,6 +89,8 @@ const std::vector<double>& Scenario::reals(std::string_view path) const {
 const std::vector<std::string>& Scenario::texts(std::string_view path) const {
   return typed<std::vector<std::string>>(entry(path).value, path);
 }
+const Value& Scenario::value(std::string_view path) const { return entry(path).value; }
+bool Scenario::declares(std::string_view path) const { return entries_.contains(path); }
 std::size_t Scenario::count(std::string_view list) const {
   const auto at = counts_.find(list);
   return at == counts_.end() ? 0 : at->second;
@@ -119,12 +125,17 @@ InputError Scenario::error(std::string_view path, const std::string& wrong, std:
   return {where, std::string(path), wrong, std::move(right)};
 }
 
-std::string Scenario::canonical(std::span<const std::string> prefixes) const {
+std::string Scenario::canonical() const {
+  std::string text;
+  for (const auto& [path, entry] : entries_) text += line_of(path, entry.value);
+  return text;
+}
+
+std::string Scenario::canonical(std::span<const std::string> declared) const {
   std::string text;
   for (const auto& [path, entry] : entries_) {
-    const auto starts = [&path = path](const std::string& prefix) { return path.starts_with(prefix); };
-    if (std::ranges::none_of(prefixes, starts)) continue;
-    text += path + " = " + std::visit([](const auto& value) { return written(value); }, entry.value) + "\n";
+    if (std::ranges::find(declared, scenario_detail::pattern_of(path)) != declared.end())
+      text += line_of(path, entry.value);
   }
   return text;
 }

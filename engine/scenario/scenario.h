@@ -28,6 +28,16 @@ namespace dem {
 
 enum class KeyType { boolean, integer, real, text, integers, reals, texts };
 
+/// What a key decides. The content of a case, which says whether its record is still current, holds the values of the keys
+/// that affect its specimen or its test.
+enum class Affects {
+  undeclared,  ///< refused by a test: a key must say
+  cases,       ///< which cases there are, or the value of another key in some of them
+  specimen,    ///< the specimen, and so every result
+  test,        ///< the loading or what is measured
+  drawing,     ///< the report alone
+};
+
 /// The declaration of one key.
 struct Key {
   std::string path = {};  ///< "specimen.diameter", "mineral[].share", "sweep.aspect_ratio"
@@ -37,7 +47,9 @@ struct Key {
   double high = std::numeric_limits<double>::infinity();
   std::vector<std::string> choices = {};  ///< for text(s): the allowed words; empty: any
   std::string standard = {};  ///< the default as TOML text ("\"0.35 mm\"", "1.66", "[1]"); "" : the key is required
-  std::string help = {};      ///< one line, with the symbol and source where there is one
+  Affects affects = Affects::undeclared;
+  std::vector<std::string> when = {};  ///< the tests (or solvers) that it matters to; empty: all
+  std::string help = {};               ///< one line, with the symbol and source where there is one
 };
 
 /// A value in SI units.
@@ -68,6 +80,8 @@ class Scenario {
   [[nodiscard]] const std::vector<std::int64_t>& integers(std::string_view path) const;
   [[nodiscard]] const std::vector<double>& reals(std::string_view path) const;
   [[nodiscard]] const std::vector<std::string>& texts(std::string_view path) const;
+  [[nodiscard]] const Value& value(std::string_view path) const;  ///< of any type
+  [[nodiscard]] bool declares(std::string_view path) const;       ///< whether its model has the key
   /// Entries of a list of tables: count("mineral") is 4; then real("mineral[0].share").
   [[nodiscard]] std::size_t count(std::string_view list) const;
   [[nodiscard]] bool given(std::string_view path) const;  ///< written by the user (file, scale or --set)
@@ -76,9 +90,11 @@ class Scenario {
   [[nodiscard]] Scenario with(std::string_view path, Value value) const;
   /// An error about the value of `path`, with the line where the user wrote it.
   [[nodiscard]] InputError error(std::string_view path, const std::string& wrong, std::string right) const;
-  /// Stable text of the resolved values whose path starts with one of `prefixes`, sorted by path, one "path = value"
-  /// a line, doubles in shortest round-trip form. The content key of a case is made of this.
-  [[nodiscard]] std::string canonical(std::span<const std::string> prefixes) const;
+  /// Stable text of the resolved values of the keys declared under these paths ("mineral[].share" stands for that of every
+  /// mineral), sorted by path, one "path = value" a line, doubles in shortest round-trip form. The content of a case is made
+  /// of this.
+  [[nodiscard]] std::string canonical(std::span<const std::string> declared) const;
+  [[nodiscard]] std::string canonical() const;  ///< of all values
 
  private:
   struct Entry {
@@ -96,7 +112,7 @@ class Scenario {
 std::span<const Key> common_keys();
 
 /// "17 %" -> 0.17, "58 GPa" -> 5.8e10; throws InputError (no location) on a bad number, unknown unit or another dimension.
-double quantity(std::string_view text, std::string_view unit);
+double read_quantity(std::string_view text, std::string_view unit);
 
 /// The text of --explain-keys: path, type, unit, range, default and help of each key.
 std::string explain(std::span<const Key> keys);

@@ -165,7 +165,7 @@ std::string units_like(std::string_view name) {
   return text;
 }
 
-double quantity(std::string_view text, std::string_view unit_name) {
+double read_quantity(std::string_view text, std::string_view unit_name) {
   const Unit& wanted = declared(unit_name);
   const std::string example = "write a number and a unit (" + units_like(unit_name) + ")";
   const std::string_view whole = trimmed(text);

@@ -4,23 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
-#include "engine/core/archive.h"
 #include "engine/core/files.h"
 #include "engine/core/hash.h"
+#include "engine/model/keeper.h"
+#include "engine/sheet/quantities.h"
 
 namespace dem::sheet {
 namespace {
 
 constexpr std::string_view version = "sheet 9";
-
-std::string words(double value) {
-  std::string text = fmt::format("{:g}", value);
-  std::replace(text.begin(), text.end(), '.', '_');
-  return text;
-}
 
 std::vector<CaseSpec> cases(const Scenario& s) {
   const std::string& kind = s.text("loading.kind");
@@ -34,13 +28,10 @@ std::vector<CaseSpec> cases(const Scenario& s) {
       if (!main && spread != spreads.front()) continue;  // another solver is set beside the first case
       Scenario one = s.with("solvers", std::vector<std::string>{solver}).with("disorder.spread", spread);
       const Settings settings = read_settings(one);
-      CaseSpec spec{kind, one, {}, {}};
-      if (swept) spec.id += "_spread_" + words(spread);
-      if (!main) spec.id += "_" + solver;
-      if (std::any_of(all.begin(), all.end(), [&](const CaseSpec& c) { return c.id == spec.id; })) continue;
-      std::vector<std::string> prefixes{"sheet.", "grains.", "rule", "disorder.", "loading.", "solvers"};
-      prefixes.emplace_back(solver == "converged" ? "solver." : "published.");
-      spec.content = fmt::format("{}\nseed = {}\n{}", version, s.seed(), one.canonical(prefixes));
+      std::string id = kind;
+      if (swept) id += "_spread_" + id_part(spread);
+      if (!main) id += "_" + solver;
+      if (std::ranges::find(all, id, &CaseSpec::id) != all.end()) continue;
       // A broken file, a map that does not cover the sheet or has too few grains are found before anything runs.
       if (all.empty() && (settings.source == "file" || settings.expanding > 0)) {
         try {
@@ -52,12 +43,16 @@ std::vector<CaseSpec> cases(const Scenario& s) {
               "lower it or raise grains.count");
         }
       }
-      if (settings.source == "file") {
-        spec.content += "map = " + sha256(read_file(settings.file)) + "\n";
-      }
-      spec.parameters = {
-          {"test", kind}, {"spread", spread}, {"solver", solver}, {"columns", static_cast<double>(settings.columns)}};
-      all.push_back(std::move(spec));
+      std::string inputs;
+      if (settings.source == "file") inputs = "map = " + sha256(read_file(settings.file)) + "\n";
+      const auto of = [](const Parameter& parameter, ParameterValue value) {
+        return std::pair{std::string(parameter.id), std::move(value)};
+      };
+      Parameters parameters = {{"test", kind},
+                               of(parameter::spread, spread),
+                               of(parameter::solver, solver),
+                               of(parameter::columns, static_cast<double>(settings.columns))};
+      all.push_back(make_case(model(), std::move(id), std::move(one), std::move(parameters), {kind, solver}, inputs));
     }
   }
   return all;
@@ -90,7 +85,11 @@ Table table_of(const std::string& name, const std::vector<std::vector<double>>& 
 class Run {
  public:
   Run(const CaseSpec& spec, RunContext& context)
-      : spec_(spec), context_(context), settings_(read_settings(spec.scenario)), specimen_(make_specimen(settings_)) {
+      : spec_(spec),
+        context_(context),
+        settings_(read_settings(spec.scenario)),
+        specimen_(make_specimen(settings_)),
+        keeper_(spec, context) {
     // Below some ten thousand particles threads wait for each other longer than they work; the result is the same.
     threads_ = specimen_.sheet.particles() < 12000 ? 1 : context.threads;
     settings_.loading.grows = specimen_.grows;
@@ -106,21 +105,13 @@ class Run {
 
   Record record() {
     resume();
-    last_ = Clock::now();
     experiment_->run([&](const Experiment&) {
       observe();
       return true;
     });
     observe();
     if (kept_.fields.empty() || kept_.fields.back().front() != experiment_->strain()) take();
-    Record r;
-    r.model = "sheet";
-    r.scenario = spec_.scenario.name();
-    r.case_id = spec_.id;
-    r.content = spec_.content;
-    r.physics_version = version;
-    r.seed = settings_.seed;
-    r.parameters = spec_.parameters;
+    Record r = new_record(model(), spec_);
     const Specimen before{initial_, specimen_.map, specimen_.cover, specimen_.grains, specimen_.grows};
     add_results(r, settings_, before, *experiment_, total_work());
     for (std::size_t k = 0; k < kept_.fields.size(); k += 4) {
@@ -130,8 +121,6 @@ class Run {
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   Solver& solver() { return converged_ ? static_cast<Solver&>(*converged_) : *published_; }
 
   SolverWork total_work() {
@@ -144,8 +133,7 @@ class Run {
   }
 
   void resume() {
-    if (context_.checkpoint.empty()) return;
-    if (!load_checkpoint(context_.checkpoint, spec_.content, kept_).loaded) return;
+    if (!keeper_.resume(kept_)) return;
     experiment_->restore(kept_.experiment);
     if (converged_ && !kept_.solver.coupling.empty()) {
       converged_->restore(specimen_.sheet, kept_.solver);
@@ -174,15 +162,11 @@ class Run {
     const double done = (state.step - still) / std::max(1, settings_.loading.steps);
     context_.report({"loading", static_cast<std::int64_t>(state.breaks.size()), std::clamp(done, 0.0, 1.0),
                      experiment_->strain(), 1e10 * (wall.xx - wall.yy)});  // k = 1 stands for 10 GPa
-    const bool stop = context_.stopped();
-    if (!stop && std::chrono::duration<double>(Clock::now() - last_).count() < context_.checkpoint_seconds) return;
-    if (!context_.checkpoint.empty()) {
+    keeper_.look([&] {
       Kept now{experiment_->snapshot(), {}, total_work(), kept_.fields, kept_.next_snapshot};
       if (converged_) now.solver = converged_->state();
-      save_checkpoint(context_.checkpoint, spec_.content, now);
-    }
-    if (stop) throw Interrupted{};
-    last_ = Clock::now();
+      return now;
+    });
   }
 
   void take() {
@@ -202,13 +186,13 @@ class Run {
   std::unique_ptr<PublishedSolver> published_;
   std::unique_ptr<Experiment> experiment_;
   Kept kept_;
-  Clock::time_point last_;
+  Keeper keeper_;
 };
 
 Record run(const CaseSpec& spec, RunContext& context) { return Run(spec, context).record(); }
 
 }  // namespace
 
-Model model() { return {"sheet", version, keys, cases, run}; }
+Model model() { return {"sheet", version, keys, quantities, parameters, cases, run}; }
 
 }  // namespace dem::sheet

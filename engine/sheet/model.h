@@ -8,8 +8,8 @@
 //   cracks          step, strain, mode (0 tension), place (0 intra, 1 inter grain), position (2), trend, ratio, margin
 //   history         one row a load step
 //   snapshots/NNNN  displacement (2), mean and differential stress of each particle; attribute strain
-#include "engine/sheet/keys.h"
 #include "engine/model/model.h"
+#include "engine/sheet/keys.h"
 
 namespace dem::sheet {
 

@@ -7,6 +7,7 @@
 
 #include "engine/sheet/fractures.h"
 #include "engine/sheet/model.h"
+#include "engine/sheet/quantities.h"
 
 namespace dem::sheet {
 namespace {
@@ -182,9 +183,9 @@ void add_peak(Record& record, const Experiment& experiment) {
     if (now > peak) peak = now, strain = s.strain, before = breaks_before;
     breaks_before = s.breaks;
   }
-  record.results.emplace_back("peak_differential_stress_dimensionless", peak);
-  record.results.emplace_back("strain_at_peak", strain);
-  record.results.emplace_back("breaks_before_peak", before);
+  record.put(quantity::peak_differential_stress, peak);
+  record.put(quantity::strain_at_peak, strain);
+  record.put(quantity::breaks_before_peak, before);
 }
 
 // How abruptly the sheet fails: what one load step takes of all broken springs, and of the largest tension on the
@@ -199,12 +200,12 @@ void add_abruptness(Record& record, const Experiment& experiment) {
     most = std::max(most, s.breaks - before);
     before = s.breaks;
   }
-  record.results.emplace_back("most_breaks_in_a_step", most);
-  if (before > 0) record.results.emplace_back("worst_step_share", static_cast<double>(most) / before);
+  record.put(quantity::most_breaks_in_a_step, most);
+  if (before > 0) record.put(quantity::worst_step_share, static_cast<double>(most) / before);
   if (peak <= 0) return;
-  record.results.emplace_back("peak_tension_dimensionless", peak);
-  record.results.emplace_back("strain_at_peak_tension", strain);
-  record.results.emplace_back("largest_drop_share", lost / peak);
+  record.put(quantity::peak_tension, peak);
+  record.put(quantity::strain_at_peak_tension, strain);
+  record.put(quantity::largest_drop_share, lost / peak);
 }
 
 void add_checks(Record& record, const Settings& settings, const Experiment& experiment) {
@@ -251,49 +252,50 @@ void add_results(Record& record, const Settings& settings, const Specimen& speci
   int between = 0, springs = 0;
   for (const Break& b : breaks) between += specimen.sheet.between[static_cast<std::size_t>(b.slot)];
   for (const double k : specimen.sheet.stiffness) springs += k > 0 ? 1 : 0;
-  const auto put = [&](const char* name, double value) {
-    if (std::isfinite(value)) record.results.emplace_back(name, value);
+  const auto put = [&](const Quantity& quantity, double value) {
+    if (std::isfinite(value)) record.put(quantity, value);
   };
   const auto total = static_cast<double>(breaks.size());
-  put("particles", specimen.sheet.particles());
-  put("contacts", springs);
-  put("grains", static_cast<double>(specimen.map.flynns.size()));
-  put("cracks.intra_tension", total - between);
-  put("cracks.inter_tension", between);
-  put("inter_grain_crack_share", total > 0 ? between / total : nan);
-  put("onset_strain", total > 0 ? breaks.front().step * settings.loading.step : nan);
+  put(quantity::particles, specimen.sheet.particles());
+  put(quantity::contacts, springs);
+  put(quantity::grains, static_cast<double>(specimen.map.flynns.size()));
+  put(quantity::cracks_intra_tension, total - between);
+  put(quantity::cracks_inter_tension, between);
+  put(quantity::inter_grain_crack_share, total > 0 ? between / total : nan);
+  put(quantity::onset_strain, total > 0 ? breaks.front().step * settings.loading.step : nan);
   add_peak(record, experiment);
-  put("final_strain", experiment.strain());
+  put(quantity::final_strain, experiment.strain());
   add_abruptness(record, experiment);
   const std::vector<double> trend = trends(breaks, 2 * specimen.sheet.radius0);
   if (settings.loading.kind == LoadingKind::growth) {
-    put("radial_share", share_along(trend, radial(specimen, breaks)));
+    put(quantity::radial_share, share_along(trend, radial(specimen, breaks)));
   } else {
     const double along = settings.loading.kind == LoadingKind::compression ? 0.0 : std::acos(-1.0) / 2;
-    put(settings.loading.kind == LoadingKind::extension ? "across_extension_share" : "along_compression_share",
+    put(settings.loading.kind == LoadingKind::extension ? quantity::across_extension_share
+                                                        : quantity::along_compression_share,
         share_along(trend, std::vector<double>(breaks.size(), along)));
   }
   if (settings.source == "layers") {
     const Crossing c = crossing_at(settings, specimen, breaks, experiment.state().step);
     const double thickness = (settings.layer_high - settings.layer_low) * (specimen.map.high[1] - specimen.map.low[1]);
-    put("crossing_fractures", static_cast<double>(c.places.size()));
-    put("spacing_over_thickness", c.mean_spacing / thickness);
-    put("spacing_scatter", c.scatter);
-    put("spacing_scatter_chance", c.chance);
+    put(quantity::crossing_fractures, static_cast<double>(c.places.size()));
+    put(quantity::spacing_over_thickness, c.mean_spacing / thickness);
+    put(quantity::spacing_scatter, c.scatter);
+    put(quantity::spacing_scatter_chance, c.chance);
   }
-  put("energy_residual", experiment.energy_residual());
-  put("unbalanced_force_dimensionless", experiment.state().equilibrium.worst);
-  put("load_steps", experiment.state().step);
-  put("jumps", experiment.state().jumps);
+  put(quantity::energy_residual, experiment.energy_residual());
+  put(quantity::unbalanced_force, experiment.state().equilibrium.worst);
+  put(quantity::load_steps, experiment.state().step);
+  put(quantity::jumps, experiment.state().jumps);
   if (const Sample* last = experiment.state().samples.empty() ? nullptr : &experiment.state().samples.back())
-    put("jumped_share", last->jumped / (last->boundary_work + last->growth_work));
-  put("solver.relaxations", static_cast<double>(work.relaxations));
-  put("solver.relaxations_that_stopped_short", static_cast<double>(experiment.state().equilibrium.missed));
-  put(settings.solver == "converged" ? "solver.solves" : "solver.sweeps", static_cast<double>(work.solves));
+    put(quantity::jumped_share, last->jumped / (last->boundary_work + last->growth_work));
+  put(quantity::relaxations, static_cast<double>(work.relaxations));
+  put(quantity::relaxations_stopped_short, static_cast<double>(experiment.state().equilibrium.missed));
+  put(settings.solver == "converged" ? quantity::solves : quantity::sweeps, static_cast<double>(work.solves));
   if (settings.solver == "converged") {
-    put("solver.factorisations", static_cast<double>(work.factorisations));
-    put("solver.patches", static_cast<double>(work.patches));
-    put("solver.settled", static_cast<double>(work.settled));
+    put(quantity::factorisations, static_cast<double>(work.factorisations));
+    put(quantity::patches, static_cast<double>(work.patches));
+    put(quantity::settled, static_cast<double>(work.settled));
   }
   add_checks(record, settings, experiment);
   for (const std::string& note : specimen.map.notes) record.notes.push_back(note);

@@ -24,7 +24,7 @@ using store_detail::require;
 using Text = std::string;
 using Attributes = std::vector<std::pair<std::string, std::string>>;
 
-constexpr const char* record_format = "dem-report record 1";
+constexpr const char* record_format = "dem-report record 2";
 constexpr const char* table_format = "dem-report tables 1";
 constexpr const char* index_name = "table_index";  // marks a group as a table and keeps the order of tables
 constexpr hsize_t chunk_values = 65536;
@@ -338,7 +338,11 @@ void write_record(const Record& record, const fs::path& path) {
       std::visit([&, &key = name](const auto& v) { put(parameters, key, v); }, value);
     }
     const Handle results = group(file, "results");
-    for (const auto& [name, value] : record.results) put(results, name, value);
+    const Handle units = group(file, "units");
+    for (const auto& [name, value] : record.results) {
+      put(results, name, value);
+      put(units, name, Text(find_quantity(record.quantities, name).unit));
+    }
     const Handle checks = group(file, "checks");
     for (const Check& check : record.checks) {
       const Handle one = group(checks, check.id);

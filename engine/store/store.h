@@ -2,7 +2,7 @@
 // Records and other tables in HDF5, the only place that knows it. The same input gives the same bytes: no time stamps.
 //
 // results.h5:  /case        attributes: format, model, scenario, case_id, content, physics_version, seed
-//              /parameters  /results   one attribute each, in order; the unit is in the name of a result
+//              /parameters  /results   one attribute each, in order; /units: the unit of each result
 //              /checks/ID   attributes value, limit, held, meaning
 //              /notes       one attribute a sentence
 //              /TABLE       a group with the table's attributes; one dataset a column, N or N x width, attribute unit

@@ -29,13 +29,15 @@ struct OnDisk {
   std::string why;  ///< why there is none, for a person
 };
 
-OnDisk look_up(const CaseSpec& spec, const fs::path& path, std::span<const Key> keys) {
+OnDisk look_up(const CaseSpec& spec, const fs::path& path, const Model& model) {
   std::error_code error;
   if (!fs::exists(path, error)) return {{}, "no record"};
   try {
     const std::string content = read_content(path);
-    if (content != spec.content) return {{}, changes(content, spec.content, keys)};
-    return {read_record(path), {}};
+    if (content != spec.content) return {{}, changes(content, spec.content, model.keys())};
+    Record record = read_record(path);
+    record.quantities = model.quantities();
+    return {std::move(record), {}};
   } catch (const EnvironmentError& failure) {
     return {{}, failure.what()};
   }
@@ -118,7 +120,7 @@ class Runner {
   void look_at(std::size_t at) {
     const CaseSpec& spec = study_.cases[at];
     const fs::path path = path_of(spec);
-    OnDisk found = look_up(spec, path, study_.model->keys());
+    OnDisk found = look_up(spec, path, *study_.model);
     CaseOutcome outcome{spec.id, CaseState::kept, std::move(found.current), {}, 0};
     if (may_simulate(spec) && (options_.force || !outcome.record)) {
       simulate(at, path, outcome.record ? "asked for by --force" : found.why, outcome);
@@ -200,7 +202,7 @@ class Runner {
       listener_.begin(spec.id, static_cast<int>(at) + 1, static_cast<int>(study_.cases.size()), why);
     }
     try {
-      outcome.record = complete(study_.model->run(spec, context), spec);
+      outcome.record = study_.model->run(spec, context);
       outcome.state = CaseState::simulated;
       write_record(*outcome.record, path);
       std::error_code ignored;
@@ -229,18 +231,6 @@ class Runner {
     }
   }
 
-  /// What the runner knows of a case is the same in every model's records.
-  [[nodiscard]] Record complete(Record record, const CaseSpec& spec) const {
-    record.model = study_.model->name;
-    record.scenario = study_.scenario.name();
-    record.case_id = spec.id;
-    record.content = spec.content;
-    record.physics_version = study_.model->physics_version;
-    record.seed = spec.scenario.seed();
-    record.parameters = spec.parameters;
-    return record;
-  }
-
   const Study& study_;
   const StudyOptions& options_;
   const StudyListener& listener_;
@@ -265,14 +255,6 @@ std::vector<std::string> case_ids(const Study& study) {
 }
 
 }  // namespace
-
-const Model& find_model(std::span<const Model> models, std::string_view name) {
-  const auto at = std::ranges::find(models, name, &Model::name);
-  if (at != models.end()) return *at;
-  std::vector<std::string> names;
-  for (const Model& known : models) names.emplace_back(known.name);
-  throw InputError("unknown model '" + std::string(name) + "'", advice(name, names, "the models are"));
-}
 
 std::string Study::folder() const { return scenario.name() + "." + scenario.scale(); }
 

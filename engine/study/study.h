@@ -12,13 +12,10 @@
 #include <vector>
 
 #include "engine/core/record.h"
-#include "engine/scenario/scenario.h"
 #include "engine/model/model.h"
+#include "engine/scenario/scenario.h"
 
 namespace dem {
-
-/// Throws InputError listing the known names.
-const Model& find_model(std::span<const Model> models, std::string_view name);
 
 /// A checked scenario with its cases, ready to run.
 struct Study {

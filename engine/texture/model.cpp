@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 
-#include "engine/core/archive.h"
+#include "engine/model/keeper.h"
+#include "engine/texture/genesis/packing.h"
 #include "engine/texture/keys.h"
 #include "engine/texture/loading/loading.h"
-#include "engine/texture/genesis/packing.h"
+#include "engine/texture/quantities.h"
 #include "engine/texture/results.h"
 
 namespace dem::texture {
@@ -18,13 +18,6 @@ namespace {
 
 // Raised whenever results change.
 constexpr std::string_view physics_version = "grain_texture 6";
-
-// 1 -> "1", 1.5 -> "1_5", 0.675 -> "0_675"
-std::string word(double value) {
-  std::string text = fmt::format("{}", value);
-  std::replace(text.begin(), text.end(), '.', '_');
-  return text;
-}
 
 /// One specimen of the scenario, and the pressure that it is tested under.
 struct Variant {
@@ -39,45 +32,36 @@ constexpr double degrees = 57.295779513082323;
 // Without the rounding noise of conversions, so that ids and axes read "30" and not "29.999999999999996".
 double tidy(double value) { return std::round(value * 1e9) / 1e9; }
 
-std::string underlined(std::string text) {
-  std::replace(text.begin(), text.end(), ' ', '_');
-  return text;
-}
-
-CaseSpec make_case(const Scenario& base, const std::string& test, const Variant& v) {
+CaseSpec case_of(const Scenario& base, const std::string& test, const Variant& v) {
   const double dip = tidy(v.dip * degrees), pressure = tidy(v.confining_pressure * 1e-6);
-  const bool one_mineral = !v.only_mineral.empty();
-  CaseSpec spec{test + "_" + (one_mineral ? underlined(v.only_mineral) : "ar_" + word(v.aspect_ratio)),
-                base.with("texture.aspect_ratio", v.aspect_ratio),
-                {},
-                {}};
-  spec.scenario = spec.scenario.with("texture.seed_scale", v.seed_scale)
-                      .with("texture.growth", v.growth)
-                      .with("texture.dip", v.dip)
-                      .with("texture.only_mineral", v.only_mineral)
-                      .with("compression.confining_pressure", v.confining_pressure)
-                      .with("seed", v.seed);
-  if (const double rate = base.real("confined_compression.rate"); v.confining_pressure > 0 && rate > 0) {
-    spec.scenario = spec.scenario.with("compression.rate", rate);
+  Scenario scenario = base.with("texture.aspect_ratio", v.aspect_ratio)
+                          .with("texture.seed_scale", v.seed_scale)
+                          .with("texture.growth", v.growth)
+                          .with("texture.dip", v.dip)
+                          .with("texture.only_mineral", v.only_mineral)
+                          .with("compression.confining_pressure", v.confining_pressure)
+                          .with("seed", v.seed);
+  if (const double rate = base.real("compression.confined_rate"); v.confining_pressure > 0 && rate > 0) {
+    scenario = scenario.with("compression.rate", rate);
   }
-  if (!base.reals("sweep.dip").empty() || v.dip != 0) spec.id += "_dip_" + word(dip);
-  if (pressure > 0) spec.id += "_sigma3_" + word(pressure);
-  if (v.seed_scale != base.real("texture.seed_scale")) spec.id += "_seed_scale_" + word(v.seed_scale);
-  if (v.growth != base.text("texture.growth")) spec.id += "_" + v.growth;
-  if (v.seed != static_cast<std::int64_t>(base.seed())) spec.id += fmt::format("_seed_{}", v.seed);
-  const std::vector<std::string> prefixes = {"seed",     "specimen.", "packing.", "mineral[", "interaction.",
-                                             "texture.", "solver.",   "measure.", test + "."};
-  spec.content = fmt::format("model = grain_texture\nphysics = {}\ntest = {}\n{}", physics_version, test,
-                             spec.scenario.canonical(prefixes));
-  spec.parameters = {{"test", test},
-                     {"aspect_ratio", v.aspect_ratio},
-                     {"dip", dip},
-                     {"seed_scale", v.seed_scale},
-                     {"growth", v.growth},
-                     {"mineral", v.only_mineral},
-                     {"confining_pressure_MPa", pressure},
-                     {"seed", static_cast<double>(v.seed)}};
-  return spec;
+  std::string id = test + "_" + (v.only_mineral.empty() ? "ar_" + id_part(v.aspect_ratio) : id_part(v.only_mineral));
+  if (!base.reals("sweep.dip").empty() || v.dip != 0) id += "_dip_" + id_part(dip);
+  if (pressure > 0) id += "_sigma3_" + id_part(pressure);
+  if (v.seed_scale != base.real("texture.seed_scale")) id += "_seed_scale_" + id_part(v.seed_scale);
+  if (v.growth != base.text("texture.growth")) id += "_" + v.growth;
+  if (v.seed != static_cast<std::int64_t>(base.seed())) id += fmt::format("_seed_{}", v.seed);
+  const auto of = [](const Parameter& parameter, ParameterValue value) {
+    return std::pair{std::string(parameter.id), std::move(value)};
+  };
+  Parameters parameters = {{"test", test},
+                           of(parameter::aspect_ratio, v.aspect_ratio),
+                           of(parameter::dip, dip),
+                           of(parameter::seed_scale, v.seed_scale),
+                           of(parameter::growth, v.growth),
+                           of(parameter::mineral, v.only_mineral),
+                           of(parameter::confining_pressure, pressure),
+                           of(parameter::seed, static_cast<double>(v.seed))};
+  return make_case(model(), std::move(id), std::move(scenario), std::move(parameters), {test});
 }
 
 TestKind kind_of(const std::string& test) {
@@ -148,7 +132,7 @@ std::vector<CaseSpec> cases(const Scenario& scenario) {
     for (const Variant& v : variants) {
       Variant tested = v;
       if (test != "compression") tested.confining_pressure = 0;  // others have none
-      CaseSpec made = make_case(scenario, test, tested);
+      CaseSpec made = case_of(scenario, test, tested);
       if (test != "compression" && std::ranges::find(list, made.id, &CaseSpec::id) != list.end()) continue;
       const Settings settings = read_settings(made.scenario, kind_of(test));
       if (kind_of(test) != TestKind::genesis) made.threads = threads_of(expected_spheres(settings.packing));
@@ -165,22 +149,11 @@ LoadingTest load(const Specimen& specimen, const Settings& settings, const CaseS
     return std::clamp(useful, 1, std::max(1, context.threads_now()));
   };
   LoadingTest test(specimen, settings, threads());
-  if (!context.checkpoint.empty()) {
-    LoadingTest loaded = test;
-    std::string bytes;
-    if (load_checkpoint(context.checkpoint, spec.content, loaded).loaded) test = std::move(loaded);
-  }
-  using Clock = std::chrono::steady_clock;
-  auto saved = Clock::now();
+  Keeper keeper(spec, context);
+  if (LoadingTest kept = test; keeper.resume(kept)) test = std::move(kept);
   const bool compression = settings.test == TestKind::compression;
   while (!test.ended()) {
-    const bool stop = context.stopped();
-    const bool due = std::chrono::duration<double>(Clock::now() - saved).count() > context.checkpoint_seconds;
-    if ((stop || due) && !context.checkpoint.empty()) {
-      save_checkpoint(context.checkpoint, spec.content, test);
-      saved = Clock::now();
-    }
-    if (stop) throw Interrupted{};
+    keeper.look([&]() -> const LoadingTest& { return test; });
     test.set_threads(threads());
     test.advance();
     if (test.history().empty()) {
@@ -196,23 +169,20 @@ LoadingTest load(const Specimen& specimen, const Settings& settings, const CaseS
 }
 
 Record run(const CaseSpec& spec, RunContext& context) {
-  const TestKind kind = kind_of(std::get<std::string>(spec.parameters.front().second));
+  const TestKind kind = kind_of(spec.test());
   const Settings settings = read_settings(spec.scenario, kind);
   const Specimen specimen = make_specimen(settings, context);
-  Record record = kind == TestKind::genesis ? make_specimen_record(specimen, settings)
-                                            : make_record(specimen, settings, load(specimen, settings, spec, context));
-  record.model = "grain_texture";
-  record.scenario = spec.scenario.name();
-  record.case_id = spec.id;
-  record.content = spec.content;
-  record.physics_version = physics_version;
-  record.seed = spec.scenario.seed();
-  record.parameters = spec.parameters;
+  Record record = new_record(model(), spec);
+  if (kind == TestKind::genesis) {
+    add_specimen(record, specimen, settings);
+  } else {
+    add_test(record, specimen, settings, load(specimen, settings, spec, context));
+  }
   return record;
 }
 
 }  // namespace
 
-Model model() { return {"grain_texture", physics_version, &keys, &cases, &run}; }
+Model model() { return {"grain_texture", physics_version, &keys, &quantities, &parameters, &cases, &run}; }
 
 }  // namespace dem::texture

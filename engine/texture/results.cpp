@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "engine/texture/quantities.h"
+
 namespace dem::texture {
 namespace {
 
@@ -210,7 +212,7 @@ void add_snapshots(Record& record, const LoadingTest& test, const Characteristic
 }
 
 void add_specimen_results(Record& record, const Specimen& specimen, const Settings& settings) {
-  const auto put = [&](const std::string& name, double value) { record.results.emplace_back(name, value); };
+  using namespace quantity;
   std::map<std::pair<std::int32_t, std::int32_t>, double> inter, intra;
   double boundaries = 0;
   for (const BondSpec& b : specimen.bonds) {
@@ -221,9 +223,9 @@ void add_specimen_results(Record& record, const Specimen& specimen, const Settin
     (between_grains ? inter : intra)[{pair.first, pair.second}] += 1;
   }
   const auto contacts = static_cast<double>(specimen.bonds.size());
-  if (!settings.one_mineral) put("inter_grain_share", boundaries / contacts);
-  put("coordination", specimen.packing.coordination);
-  put("porosity", specimen.packing.porosity);
+  if (!settings.one_mineral) record.put(inter_grain_share, boundaries / contacts);
+  record.put(quantity::coordination, specimen.packing.coordination);
+  record.put(quantity::porosity, specimen.packing.porosity);
   std::vector<double> volume(settings.minerals.size(), 0);
   double all = 0;
   for (std::size_t i = 0; i < specimen.packing.radius.size(); ++i) {
@@ -233,10 +235,10 @@ void add_specimen_results(Record& record, const Specimen& specimen, const Settin
   }
   const auto name = [&](std::int32_t m) { return words(settings.minerals[static_cast<std::size_t>(m)].name); };
   for (std::size_t m = 0; m < volume.size(); ++m)
-    put("mineral_share." + name(static_cast<std::int32_t>(m)), volume[m] / all);
-  for (const auto& [pair, count] : intra) put("contact_share.intra_" + name(pair.first), count / contacts);
+    record.put(mineral_share, name(static_cast<std::int32_t>(m)), volume[m] / all);
+  for (const auto& [pair, count] : intra) record.put(contact_share, "intra_" + name(pair.first), count / contacts);
   for (const auto& [pair, count] : inter) {
-    put("contact_share.inter_" + name(pair.first) + "_" + name(pair.second), count / contacts);
+    record.put(contact_share, "inter_" + name(pair.first) + "_" + name(pair.second), count / contacts);
   }
 }
 
@@ -248,18 +250,17 @@ void add_specimen_tables(Record& record, const Specimen& specimen, const Setting
 
 }  // namespace
 
-Record make_specimen_record(const Specimen& specimen, const Settings& settings) {
-  Record record;
-  const auto put = [&](const std::string& name, double value) { record.results.emplace_back(name, value); };
+void add_specimen(Record& record, const Specimen& specimen, const Settings& settings) {
   add_specimen_results(record, specimen, settings);
   const auto& rounds = specimen.grains.growth_round;
   const auto n = static_cast<double>(rounds.size());
-  put("gap_share", static_cast<double>(std::ranges::count_if(rounds, [](std::int32_t r) { return r > 0; })) / n);
-  put("growth_rounds", rounds.empty() ? 0.0 : static_cast<double>(std::ranges::max(rounds)));
-  put("floaters_removed", specimen.packing.floaters_removed);
-  put("particles", n);
-  put("contacts", static_cast<double>(specimen.bonds.size()));
-  put("grains", static_cast<double>(specimen.seeds.radius.size()));
+  record.put(quantity::gap_share,
+             static_cast<double>(std::ranges::count_if(rounds, [](std::int32_t r) { return r > 0; })) / n);
+  record.put(quantity::growth_rounds, rounds.empty() ? 0.0 : static_cast<double>(std::ranges::max(rounds)));
+  record.put(quantity::floaters_removed, specimen.packing.floaters_removed);
+  record.put(quantity::particles, n);
+  record.put(quantity::contacts, static_cast<double>(specimen.bonds.size()));
+  record.put(quantity::grains, static_cast<double>(specimen.seeds.radius.size()));
   constexpr double limit = 5e-3;
   const double wanted = settings.packing.pressure;
   const double departure = std::abs(specimen.packing.pressure / wanted - 1);
@@ -268,24 +269,18 @@ Record make_specimen_record(const Specimen& specimen, const Settings& settings) 
        "Departure of the wall pressure of the packing at rest from the material pressure asked for, as a "
        "share of it."});
   add_specimen_tables(record, specimen, settings);
-  return record;
 }
 
-Record make_record(const Specimen& specimen, const Settings& settings, const LoadingTest& test) {
+void add_test(Record& record, const Specimen& specimen, const Settings& settings, const LoadingTest& test) {
   const bool compression = settings.test == TestKind::compression;
   const std::vector<HistoryRow>& h = test.history();
   const double confining = settings.confining_pressure;
   const Characteristics c = characterise(h, settings.stiffness_departure, compression, confining);
   const std::size_t end = test.end().value_or(h.size() - 1);
-  Record record;
-  const auto put = [&](const std::string& name, double value) { record.results.emplace_back(name, value); };
-  if (c.young_modulus) put("young_modulus_GPa", *c.young_modulus * giga);
-  if (c.poisson_ratio) put("poisson_ratio", *c.poisson_ratio);
-  put(!compression    ? "tensile_strength_MPa"
-      : confining > 0 ? "confined_strength_MPa"
-                      : "ucs_MPa",
-      h[c.peak].axial_stress * mega);
-  put("peak_strain", h[c.peak].axial_strain);
+  if (c.young_modulus) record.put(quantity::young_modulus, *c.young_modulus * giga);
+  if (c.poisson_ratio) record.put(quantity::poisson_ratio, *c.poisson_ratio);
+  record.put(compression ? quantity::compressive_strength : quantity::tensile_strength, h[c.peak].axial_stress * mega);
+  record.put(quantity::peak_strain, h[c.peak].axial_strain);
   if (settings.follow > 0 && compression) {
     // Mean over the last twentieth of the strain.
     double sum = 0, count = 0;
@@ -294,26 +289,24 @@ Record make_record(const Specimen& specimen, const Settings& settings, const Loa
       sum += r.axial_stress;
       count += 1;
     }
-    put("residual_over_peak", sum / count / h[c.peak].axial_stress);
+    record.put(quantity::residual_over_peak, sum / count / h[c.peak].axial_stress);
   }
   if (c.initiation_stiffness) {
-    put("crack_initiation_MPa.axial_stiffness", h[*c.initiation_stiffness].axial_stress * mega);
-    put("crack_initiation_strain.axial_stiffness", h[*c.initiation_stiffness].axial_strain);
+    record.put(quantity::initiation_by_stiffness, h[*c.initiation_stiffness].axial_stress * mega);
+    record.put(quantity::initiation_strain, h[*c.initiation_stiffness].axial_strain);
   }
-  if (c.stress_at_strain) put("crack_initiation_MPa.strain_0_1_percent", *c.stress_at_strain * mega);
+  if (c.stress_at_strain) record.put(quantity::stress_at_strain, *c.stress_at_strain * mega);
   if (compression && c.initiation_cracks) {
-    put("crack_initiation_MPa.one_percent_of_cracks", h[*c.initiation_cracks].axial_stress * mega);
+    record.put(quantity::initiation_by_cracks, h[*c.initiation_cracks].axial_stress * mega);
   }
-  if (c.initiation_volume)
-    put("crack_initiation_MPa.crack_volumetric_strain", h[*c.initiation_volume].axial_stress * mega);
+  if (c.initiation_volume) record.put(quantity::initiation_by_volume, h[*c.initiation_volume].axial_stress * mega);
   if (c.damage) {
-    put("crack_damage_MPa", h[*c.damage].axial_stress * mega);
-    put("crack_damage_strain", h[*c.damage].axial_strain);
+    record.put(quantity::crack_damage, h[*c.damage].axial_stress * mega);
+    record.put(quantity::crack_damage_strain, h[*c.damage].axial_strain);
   }
   add_specimen_results(record, specimen, settings);
-  const char* classes[] = {"intra_tension", "intra_shear", "inter_tension", "inter_shear"};
-  for (std::size_t k = 0; k < 4; ++k) put(std::string("cracks.") + classes[k], h[end].cracks[k]);
-  for (std::size_t k = 0; k < 4; ++k) put(std::string("cracks_at_peak.") + classes[k], h[c.peak].cracks[k]);
+  for (std::size_t k = 0; k < 4; ++k) record.put(quantity::cracks[k], h[end].cracks[k]);
+  for (std::size_t k = 0; k < 4; ++k) record.put(quantity::cracks_at_peak[k], h[c.peak].cracks[k]);
 
   double peak_work = 0, residual = 0, squares = 0, largest = 0;
   for (const HistoryRow& r : h) {
@@ -333,16 +326,16 @@ Record make_record(const Specimen& specimen, const Settings& settings, const Loa
   for (std::size_t i = 0; i <= end && confining > 0; ++i) {
     servo = std::max(servo, std::abs(h[i].confining_pressure / confining - 1));
   }
-  if (confining > 0) put("servo_error", servo);
-  put("energy_residual", residual);
-  put("stress_imbalance", imbalance);
-  put("largest_stress_imbalance", largest);
-  put("steps", h.back().step + 1);
-  put("particles", static_cast<double>(specimen.packing.radius.size()));
-  put("contacts", static_cast<double>(specimen.bonds.size()));
-  put("grains", static_cast<double>(specimen.seeds.radius.size()));
-  put("fresh_contacts", static_cast<double>(test.assembly().fresh_contacts()));
-  put("time_step_s", test.assembly().time_step());
+  if (confining > 0) record.put(quantity::servo_error, servo);
+  record.put(quantity::energy_residual, residual);
+  record.put(quantity::stress_imbalance, imbalance);
+  record.put(quantity::largest_stress_imbalance, largest);
+  record.put(quantity::steps, h.back().step + 1);
+  record.put(quantity::particles, static_cast<double>(specimen.packing.radius.size()));
+  record.put(quantity::contacts, static_cast<double>(specimen.bonds.size()));
+  record.put(quantity::grains, static_cast<double>(specimen.seeds.radius.size()));
+  record.put(quantity::fresh_contacts, static_cast<double>(test.assembly().fresh_contacts()));
+  record.put(quantity::time_step, test.assembly().time_step());
 
   record.checks.push_back(
       {"energy_residual", residual, residual_limit, residual <= residual_limit,
@@ -363,7 +356,6 @@ Record make_record(const Specimen& specimen, const Settings& settings, const Loa
   record.tables.push_back(crack_table(specimen, test, h[end].step));
   record.tables.push_back(history_table(h));
   add_snapshots(record, test, c, compression, end);
-  return record;
 }
 
 }  // namespace dem::texture

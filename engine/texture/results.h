@@ -5,11 +5,11 @@
 
 namespace dem::texture {
 
-/// Tables particles, grains, contacts, cracks, history, snapshots/NNNN; results by the names of summary.json; the checks
-/// energy_residual (<= 1) and equilibrium. Identity (case id, content, seed) is left to the caller.
-Record make_record(const Specimen& specimen, const Settings& settings, const LoadingTest& test);
+/// Of a finished test: the tables particles, grains, contacts, cracks, history, snapshots/NNNN; the results of quantities.h;
+/// the checks energy_residual, equilibrium and, under confining pressure, servo.
+void add_test(Record& record, const Specimen& specimen, const Settings& settings, const LoadingTest& test);
 
-/// The record of a specimen that is not loaded: tables particles, grains, contacts; the check packing_pressure.
-Record make_specimen_record(const Specimen& specimen, const Settings& settings);
+/// Of a specimen that is not loaded: the tables particles, grains, contacts; the check packing_pressure.
+void add_specimen(Record& record, const Specimen& specimen, const Settings& settings);
 
 }  // namespace dem::texture

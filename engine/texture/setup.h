@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/texture/solver/assembly.h"
-#include "engine/texture/laws/properties.h"
 #include "engine/texture/genesis/specimen.h"
+#include "engine/texture/laws/properties.h"
+#include "engine/texture/solver/assembly.h"
 
 namespace dem::texture {
 

@@ -4,9 +4,9 @@
 #include "render/chart/chart_panel.h"
 #include "render/draw.h"
 #include "render/offscreen/offscreen.h"
+#include "render/paper/paper_png.h"
 #include "render/png.h"
 #include "render/scene/scene_draw.h"
-#include "render/paper/paper_png.h"
 
 namespace render {
 

@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
+#include "engine/analysis/ledger.h"
 #include "reports/figures/table.h"
 #include "reports/figures/texture/parts.h"
-#include "reports/ledger.h"
 #include "reports/page/text.h"
 
 namespace reports {
@@ -32,10 +32,10 @@ std::vector<double> scaled(std::span<const double> values, double factor) {
 }
 
 // The work that came in: the sum of all columns that are work.
-std::vector<double> work_of(const dem::Table& history, const std::vector<LedgerTerm>& terms) {
+std::vector<double> work_of(const dem::Table& history, const std::vector<analysis::LedgerTerm>& terms) {
   std::vector<double> work(history.rows(), 0.0);
-  for (const LedgerTerm& term : terms) {
-    if (term.role != LedgerTerm::Role::work) continue;
+  for (const analysis::LedgerTerm& term : terms) {
+    if (term.role != analysis::LedgerTerm::Role::work) continue;
     const auto values = history.real(term.column);
     for (std::size_t i = 0; i < work.size(); ++i) work[i] += values[i];
   }
@@ -49,14 +49,14 @@ render::Colour share_colour(std::size_t index) {
 
 render::Chart ledger_chart(const dem::Table& history, const std::string& x_column, const std::string& x_title,
                            double x_factor, std::pair<double, std::string> unit) {
-  const auto terms = ledger_terms(history);
+  const auto terms = analysis::ledger_terms(history);
   const auto x = scaled(history.real(x_column), x_factor);
   const auto work = work_of(history, terms);
   render::Chart chart;
   std::vector<double> base(x.size(), 0.0);
   std::size_t shares = 0;
-  for (const LedgerTerm& term : terms) {
-    if (term.role != LedgerTerm::Role::share) continue;
+  for (const analysis::LedgerTerm& term : terms) {
+    if (term.role != analysis::LedgerTerm::Role::share) continue;
     render::Band band{.label = term.label, .x = x, .low = base, .high = base, .colour = share_colour(shares++)};
     const auto values = history.real(term.column);
     for (std::size_t i = 0; i < x.size(); ++i) band.high[i] += unit.first * values[i];
@@ -79,7 +79,7 @@ render::Chart ledger_chart(const dem::Table& history, const std::string& x_colum
 
 // |residual| over max(W, 1e-2 W_peak), the measure of the check.
 render::Series relative_residual(const dem::Table& history, const std::string& x_column, double x_factor) {
-  const auto terms = ledger_terms(history);
+  const auto terms = analysis::ledger_terms(history);
   const auto work = work_of(history, terms);
   const double peak = largest(work);
   const auto x = history.real(x_column);
@@ -103,17 +103,18 @@ double limit_of(const dem::Record& record) {
 
 std::vector<std::string> ledger_labels(const SeriesCase& item) {
   std::vector<std::string> labels;
-  for (const LedgerTerm& term : ledger_terms(item.record->table("history"))) labels.push_back(term.label);
+  for (const analysis::LedgerTerm& term : analysis::ledger_terms(item.record->table("history")))
+    labels.push_back(term.label);
   return labels;
 }
 
 std::string shares_alt(const dem::Table& history) {
-  const auto terms = ledger_terms(history);
+  const auto terms = analysis::ledger_terms(history);
   const auto work = work_of(history, terms);
   if (work.empty() || !(work.back() != 0)) return {};
   std::vector<std::string> parts;
-  for (const LedgerTerm& term : terms) {
-    if (term.role != LedgerTerm::Role::share) continue;
+  for (const analysis::LedgerTerm& term : terms) {
+    if (term.role != analysis::LedgerTerm::Role::share) continue;
     std::string label = term.label;
     label[0] = static_cast<char>(std::tolower(label[0]));
     parts.push_back(label + " " + percent(history.real(term.column).back() / work.back(), 1));
@@ -134,12 +135,12 @@ FigureContent energy_figure(const StudyResult& study, std::string_view test, con
   std::vector<const SeriesCase*> kept;
   for (const SeriesCase& item : cases) {
     const dem::Table* history = item.record->find("history");
-    if (!history || ledger_terms(*history).empty()) {
+    if (!history || analysis::ledger_terms(*history).empty()) {
       content.panels.push_back(note_panel("none_" + item.id, item.label, "This record keeps no energies."));
       continue;
     }
     kept.push_back(&item);
-    most = std::max(most, largest(work_of(*history, ledger_terms(*history))));
+    most = std::max(most, largest(work_of(*history, analysis::ledger_terms(*history))));
   }
   render::Chart residuals;
   double limit = std::nan("");

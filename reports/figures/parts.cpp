@@ -13,18 +13,6 @@
 namespace reports {
 namespace {
 
-bool has_parameter(const dem::Record& record, std::string_view name) {
-  return std::ranges::any_of(record.parameters, [&](const auto& p) { return p.first == name; });
-}
-
-// Equal in all parameters but those named.
-bool alike(const dem::Record& a, const dem::Record& b, std::initializer_list<std::string_view> but) {
-  return std::ranges::all_of(a.parameters, [&](const auto& mine) {
-    return std::ranges::find(but, mine.first) != but.end() ||
-           std::ranges::find(b.parameters, mine) != b.parameters.end();
-  });
-}
-
 std::string id_part(double value) {
   std::string text = fmt::format("{:.6g}", value);
   std::ranges::replace(text, '.', '_');
@@ -34,61 +22,43 @@ std::string id_part(double value) {
 
 }  // namespace
 
-std::vector<SeriesCase> series_of(const StudyResult& study, std::string_view test, const Axis& axis) {
-  std::vector<SeriesCase> cases;
-  for (const CaseResult& one : study.cases) {
-    if (!one.record || !has_parameter(*one.record, "test") || !has_parameter(*one.record, axis.parameter)) continue;
-    if (one.record->text("test") != test) continue;
-    if (!cases.empty() && !alike(*cases.front().record, *one.record, {axis.parameter, "seed"})) continue;
-    const double value = one.record->number(axis.parameter);
-    const auto same = std::ranges::find(cases, value, &SeriesCase::value);
-    if (same != cases.end()) {
-      same->repeats.push_back(one.record);
-      continue;
-    }
-    cases.push_back({one.record,
-                     value,
-                     fmt::format("{} {:.6g}{}", axis.name, value, axis.unit),
-                     fmt::format("{}_{}", axis.id, id_part(value)),
-                     {},
-                     {},
-                     {one.record}});
-  }
-  std::ranges::stable_sort(cases, {}, &SeriesCase::value);
+std::vector<SeriesCase> series_of(const StudyResult& study, std::string_view test, const dem::Parameter& axis) {
   constexpr std::array lines{render::Line::solid, render::Line::dash, render::Line::dash_dot, render::Line::dot};
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    cases[i].colour = render::palette(i);
-    cases[i].line = lines[i % lines.size()];
+  std::vector<SeriesCase> cases;
+  for (analysis::Point& point : analysis::series_of(study.cases, test, axis)) {
+    const std::size_t i = cases.size();
+    const std::string id = fmt::format("{}_{}", axis.in_ids, id_part(point.value));
+    cases.push_back(
+        {std::move(point), parameter_words(axis, point.value), id, render::palette(i), lines[i % lines.size()]});
   }
   return cases;
 }
 
-Measure result(std::string name, double factor) {
-  return [name = std::move(name), factor](const dem::Record& record) { return factor * result_or_nan(record, name); };
+std::vector<analysis::Point> points_of(const std::vector<SeriesCase>& cases) { return {cases.begin(), cases.end()}; }
+
+std::string axis_title(const dem::Parameter& parameter) {
+  return std::string(parameter.name) + (parameter.unit.empty() ? "" : " (" + std::string(parameter.unit) + ")");
 }
 
-Spread spread_of(const SeriesCase& item, const Measure& value) {
-  std::vector<double> values;
-  for (const dem::Record* record : item.repeats) {
-    const double v = value(*record);
-    if (std::isfinite(v)) values.push_back(v);
-  }
-  const auto n = static_cast<double>(values.size());
-  Spread spread{.mean = std::numeric_limits<double>::quiet_NaN(), .count = values.size()};
-  if (values.empty()) return spread;
-  spread.mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
-  double squares = 0;
-  for (const double v : values) squares += (v - spread.mean) * (v - spread.mean);
-  if (values.size() > 1) spread.deviation = std::sqrt(squares / (n - 1));
-  return spread;
+std::string axis_title(const dem::Quantity& quantity) {
+  const std::string_view unit = quantity.shown_unit();
+  return std::string(quantity.name) + (unit.empty() ? "" : " (" + std::string(unit) + ")");
 }
 
-render::Series means(const std::vector<SeriesCase>& cases, const Measure& value) {
+std::string parameter_words(const dem::Parameter& parameter, const dem::ParameterValue& value) {
+  const std::string text = parameter_text(value);
+  if (text.empty()) return {};
+  const std::string unit(parameter.unit);
+  return (parameter.symbol.empty() ? "" : std::string(parameter.symbol) + " ") + text +
+         (unit.empty() || unit == "°" ? unit : " " + unit);
+}
+
+render::Series means(const std::vector<SeriesCase>& cases, const ValueOf& value) {
   render::Series series;
   series.marker = render::Marker::circle;
   bool repeated = false;
   for (const SeriesCase& item : cases) {
-    const Spread spread = spread_of(item, value);
+    const Spread spread = analysis::spread(item, value);
     if (spread.count == 0) continue;
     repeated = repeated || spread.count > 1;
     series.x.push_back(item.value);
@@ -99,21 +69,12 @@ render::Series means(const std::vector<SeriesCase>& cases, const Measure& value)
   return series;
 }
 
-std::optional<analysis::LineFit> trend_of(const std::vector<SeriesCase>& cases, const Measure& value) {
-  std::vector<double> x, y;
-  for (const SeriesCase& item : cases) {
-    for (const dem::Record* record : item.repeats) {
-      const double v = value(*record);
-      if (!std::isfinite(v)) continue;
-      x.push_back(item.value);
-      y.push_back(v);
-    }
-  }
-  return analysis::fit_line(x, y);
+std::optional<analysis::LineFit> trend_of(const std::vector<SeriesCase>& cases, const ValueOf& value) {
+  return analysis::trend(points_of(cases), value);
 }
 
-std::string trend_words(const std::vector<SeriesCase>& cases, const Measure& value, std::string_view unit,
-                        const Axis& axis) {
+std::string trend_words(const std::vector<SeriesCase>& cases, const ValueOf& value, std::string_view unit,
+                        const dem::Parameter& axis) {
   const auto fit = trend_of(cases, value);
   if (!fit) return {};
   const double slope = fit->slope.value;
@@ -140,7 +101,7 @@ std::string estimate_text(const analysis::Estimate& estimate, int digits, bool i
 std::optional<Panel> missing_cases(const StudyResult& study, std::string_view test) {
   TextTable table{{"Case", "Why it is not shown"}, {}};
   for (const CaseResult& result : study.cases) {
-    if (result.record || !result.id.starts_with(test)) continue;
+    if (result.record || result.test() != test) continue;
     table.rows.push_back({result.id, result.error.empty() ? "It was not run." : result.error});
   }
   if (table.rows.empty()) return std::nullopt;
@@ -194,20 +155,16 @@ bool is_note(const Panel& panel) {
   return table && table->head == std::vector<std::string>{"Not drawn"};
 }
 
-double result_or_nan(const dem::Record& record, std::string_view name) {
-  return record.has_result(name) ? record.result(name) : std::numeric_limits<double>::quiet_NaN();
-}
-
-std::string by_case(const std::vector<SeriesCase>& cases, const Measure& value, int digits, std::string_view unit) {
+std::string by_case(const std::vector<SeriesCase>& cases, const ValueOf& value, int digits, std::string_view unit) {
   std::vector<std::string> items;
   for (const SeriesCase& item : cases) {
-    const double v = spread_of(item, value).mean;
+    const double v = analysis::spread(item, value).mean;
     if (std::isfinite(v)) items.push_back(digits > 0 ? number(v, digits) : count(std::round(v)));
   }
   if (items.size() != cases.size()) {  // some are missing: say which is which
     items.clear();
     for (const SeriesCase& item : cases) {
-      const double v = spread_of(item, value).mean;
+      const double v = analysis::spread(item, value).mean;
       if (std::isfinite(v))
         items.push_back((digits > 0 ? number(v, digits) : count(std::round(v))) + " (" + item.label + ")");
     }

@@ -11,19 +11,15 @@
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
 #include "engine/core/hash.h"
-#include "reports/output/csv.h"
 #include "reports/figures/parts.h"
-#include "reports/page/text.h"
+#include "reports/output/csv.h"
 #include "reports/output/workers.h"
+#include "reports/page/text.h"
 
 namespace reports {
 namespace {
 
 constexpr std::size_t points_in_a_picture = 10000;
-
-bool belongs(const Figure& figure, std::string_view scenario) {
-  return std::ranges::find(figure.scenarios, scenario) != figure.scenarios.end();
-}
 
 const Figure& named_figure(const StudyResult& study, std::string_view id) {
   std::vector<std::string> known;
@@ -133,7 +129,7 @@ std::vector<Drawn> draw_all(const std::vector<Job>& jobs, const ReportOptions& o
 FigureContent content_of(const StudyResult& study, const Figure& figure, DrawnFigure& drawn) {
   try {
     FigureContent content = figure.make(study);
-    if (of_published_rock(study)) drawn.statement = content.statement;
+    if (study.of_a_paper) drawn.statement = content.statement;
     drawn.finding = content.finding;
     return content;
   } catch (const std::out_of_range& missing) {
@@ -201,10 +197,6 @@ ChosenFigures chosen_figures(const StudyResult& study, const std::string& only) 
   for (const std::string& id : study.scenario->texts("figures")) chosen.push_back(&named_figure(study, id));
   if (!chosen.empty()) return {chosen};
   for (const Figure& figure : figures()) {
-    if (figure.model == study.scenario->model() && belongs(figure, study.scenario->name())) chosen.push_back(&figure);
-  }
-  if (!chosen.empty()) return {chosen};
-  for (const Figure& figure : figures()) {
     if (figure.model == study.scenario->model()) chosen.push_back(&figure);
   }
   return {chosen, true};
@@ -212,10 +204,9 @@ ChosenFigures chosen_figures(const StudyResult& study, const std::string& only) 
 
 Drawings draw_figures(const StudyResult& study, const ChosenFigures& chosen, const ReportOptions& options,
                       const CanvasSource& canvas) {
-  const std::vector<std::string> everything{""};
   const render::Provenance facts{{"Scenario", study.scenario->name()},
                                  {"Scale", study.scenario->scale()},
-                                 {"Scenario hash", dem::sha256(study.scenario->canonical(everything))},
+                                 {"Scenario hash", dem::sha256(study.scenario->canonical())},
                                  {"Engine", options.engine_version}};
   dem::make_folder(options.folder / "figures");
   dem::make_folder(options.folder / "data");

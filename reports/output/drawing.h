@@ -40,8 +40,8 @@ struct DrawnFigure {
   std::vector<std::string> files{};
 };
 
-/// The figures that belong to the study's scenario: those of its key `figures`, else those that name the scenario, else
-/// every one of its model (a scenario of the user's own): then those that have nothing to draw are left out.
+/// The figures that belong to the study's scenario: those of its key `figures`, else
+/// every one of its model: then those that have nothing to draw are left out.
 struct ChosenFigures {
   std::vector<const Figure*> figures;
   bool whole_model = false;

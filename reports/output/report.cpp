@@ -7,11 +7,12 @@
 
 #include "engine/core/files.h"
 #include "reports/output/drawing.h"
-#include "reports/page/page.h"
 #include "reports/output/pdf.h"
-#include "reports/published/published.h"
 #include "reports/output/summary.h"
+#include "reports/page/page.h"
 #include "reports/page/text.h"
+#include "reports/published/papers.h"
+#include "reports/published/published.h"
 
 namespace reports {
 namespace {
@@ -27,6 +28,7 @@ bool all_held(const StudyResult& study) {
 ReportOutcome make_report(StudyResult study, const ReportOptions& options, const CanvasSource& canvas,
                           const RunFacts& run) {
   const auto start = std::chrono::steady_clock::now();
+  study.of_a_paper = of_a_paper(*study.scenario, options.assets / "papers");
   study.published = published_numbers(study, options.assets / "papers");
   const auto chosen = chosen_figures(study, options.only);
   const Comparisons comparisons = compare(study, options.assets / "papers");
@@ -67,7 +69,6 @@ std::string list_figures() {
     if (figure.model != model) text += fmt::format("{}{}:\n", text.empty() ? "" : "\n", words(figure.model));
     model = figure.model;
     text += fmt::format("  {:<24} {:<34} {}\n", figure.id, figure.source, figure.title);
-    if (!figure.scenarios.empty()) text += fmt::format("  {:<24} shown by {}\n", "", fmt::join(figure.scenarios, ", "));
   }
   return text;
 }

@@ -1,5 +1,6 @@
 #include "reports/output/summary.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -42,13 +43,43 @@ Json or_null(const std::optional<T>& value) {
 
 Json case_json(const CaseResult& result) {
   Json json{{"id", result.id}, {"parameters", Json::object()}, {"results", Json::object()}};
+  for (const auto& [id, value] : result.parameters) put(json["parameters"], id, plain(value));
   if (!result.record) {
     json["error"] = result.error;
     return json;
   }
-  for (const auto& [name, value] : result.record->parameters) put(json["parameters"], name, plain(value));
   for (const auto& [name, value] : result.record->results) {
     if (std::isfinite(value)) put(json["results"], name, plain(value));
+  }
+  return json;
+}
+
+std::string_view kind_word(dem::QuantityKind kind) {
+  switch (kind) {
+    case dem::QuantityKind::result:
+      return "result";
+    case dem::QuantityKind::diagnostic:
+      return "diagnostic";
+    case dem::QuantityKind::count:
+      break;
+  }
+  return "count";
+}
+
+// Of the results that the cases have, in the order of their declarations: the unit of the numbers, and what they are.
+Json quantities_json(const StudyResult& study) {
+  Json json = Json::object();
+  for (const dem::Quantity& quantity : study.quantities) {
+    const bool there = std::ranges::any_of(study.cases, [&](const CaseResult& result) {
+      return result.record &&
+             std::ranges::any_of(result.record->results, [&](const auto& r) { return quantity.covers(r.first); });
+    });
+    if (!there) continue;
+    json[std::string(quantity.id)] = {{"name", quantity.name},
+                                      {"symbol", quantity.symbol},
+                                      {"unit", quantity.unit},
+                                      {"kind", kind_word(quantity.kind)},
+                                      {"of_size", quantity.of_size}};
   }
   return json;
 }
@@ -75,8 +106,10 @@ Json comparison_json(const Comparison& row) {
 
 std::string summary_json(const StudyResult& study, const Comparisons& comparisons,
                          const std::vector<DrawnFigure>& figures) {
-  Json json{{"scenario", study.scenario->name()}, {"scale", study.scenario->scale()}, {"cases", Json::array()},
-            {"comparisons", Json::array()},       {"checks", Json::array()},          {"figures", Json::array()}};
+  Json json{{"format", summary_format},         {"scenario", study.scenario->name()},
+            {"scale", study.scenario->scale()}, {"quantities", quantities_json(study)},
+            {"cases", Json::array()},           {"comparisons", Json::array()},
+            {"checks", Json::array()},          {"figures", Json::array()}};
   for (const CaseResult& result : study.cases) {
     json["cases"].push_back(case_json(result));
     if (!result.record) continue;

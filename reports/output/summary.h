@@ -4,13 +4,16 @@
 #include <vector>
 
 #include "reports/output/drawing.h"
-#include "reports/published/published.h"
 #include "reports/output/report.h"
+#include "reports/published/published.h"
 
 namespace reports {
 
-/// {"scenario", "scale", "cases", "comparisons", "checks", "figures"}: the structure is described in docs and tests.
-/// Names with dots nest; results that are not finite are left out.
+/// Raised when keys or units change.
+inline constexpr int summary_format = 2;
+
+/// {"format", "scenario", "scale", "quantities", "cases", "comparisons", "checks", "figures"}, as assets/summary.schema.json
+/// describes it. Results have the ids of their quantities; those with dots nest; results that are not finite are left out.
 std::string summary_json(const StudyResult& study, const Comparisons& comparisons,
                          const std::vector<DrawnFigure>& figures);
 

@@ -5,6 +5,7 @@
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
 #include "reports/page/page_parts.h"
+#include "reports/published/papers.h"
 
 namespace reports {
 namespace {
@@ -18,11 +19,6 @@ Json asset(const std::filesystem::path& file) {
   } catch (const Json::exception& error) {
     throw dem::EnvironmentError("the asset " + file.filename().string() + " cannot be read: " + error.what());
   }
-}
-
-// The folder of what a model's report says of its paper.
-std::string paper_of(const std::string& model) {
-  return model == "grain_texture" ? "zhao_2021" : model == "lattice" ? "liu_2017" : "model_description";
 }
 
 // A list of objects of texts, as it is.
@@ -52,7 +48,11 @@ std::string page(const StudyResult& study, const Comparisons& comparisons, const
   if (!pattern.is_valid()) {
     throw dem::EnvironmentError("the page template report.html is broken: " + pattern.error_message());
   }
-  const std::filesystem::path paper = options.assets / "papers" / paper_of(scenario.model());
+  Json choices = Json::array(), citations = Json::array();
+  for (const Paper& paper : papers_of(scenario.model(), options.assets / "papers")) {
+    for (const Json& one : asset(paper.folder / "choices.json")) choices.push_back(one);
+    for (const Json& one : asset(paper.folder / "citations.json")) citations.push_back(one);
+  }
   PageData data = title_data(study, options);
   data.set("style", dem::read_file(options.assets / "page" / "report.css"));
   data.set("cases", cases_data(study));
@@ -63,8 +63,8 @@ std::string page(const StudyResult& study, const Comparisons& comparisons, const
   data.set("ledger", ledger_data(study));
   data.set("checks", checks_data(study));
   data.set("notes", notes_data(study));
-  data.set("choices", list_of(asset(paper / "choices.json")));
-  data.set("citations", list_of(asset(paper / "citations.json")));
+  data.set("choices", list_of(choices));
+  data.set("citations", list_of(citations));
   data.set("command", command(study, options));
   if (std::filesystem::exists(scenario.file())) {
     std::string text = dem::read_file(scenario.file());

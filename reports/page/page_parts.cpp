@@ -8,31 +8,17 @@
 #include <set>
 #include <span>
 
+#include "engine/analysis/ledger.h"
+#include "engine/analysis/statistics.h"
 #include "engine/core/files.h"
-#include "reports/ledger.h"
+#include "engine/model/quantities.h"
+#include "reports/figures/parts.h"
 #include "reports/page/page.h"
 #include "reports/page/page_tables.h"
 #include "reports/page/text.h"
 
 namespace reports {
 namespace {
-
-// "AR 2", "dip 45°", "σ₃ 10 MPa", "quartz"; "" where there is nothing to say.
-std::string parameter_words(const std::string& name, const std::variant<double, std::string>& value) {
-  const std::string text = parameter_text(value);
-  if (text.empty() || name == "mineral") return text;
-  if (name == "aspect_ratio") return "AR " + text;
-  if (name == "dip") return "dip " + text + "°";
-  if (name == "confining_pressure_MPa") return "σ₃ " + text + " MPa";
-  return words(name) + " " + text;
-}
-
-std::string test_of(const dem::Record& record) {
-  for (const auto& [name, value] : record.parameters) {
-    if (name == "test") return parameter_text(value);
-  }
-  return {};
-}
 
 std::string capital(std::string text) {
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
@@ -44,7 +30,7 @@ std::vector<std::pair<std::string, std::vector<const CaseResult*>>> by_test(cons
   std::vector<std::pair<std::string, std::vector<const CaseResult*>>> groups;
   for (const CaseResult& result : study.cases) {
     if (!result.record) continue;
-    const std::string test = test_of(*result.record);
+    const std::string test = words(result.test());
     auto group = std::ranges::find(groups, test, [](const auto& g) { return g.first; });
     if (group == groups.end()) group = groups.insert(groups.end(), {test, {}});
     group->second.push_back(&result);
@@ -52,45 +38,13 @@ std::vector<std::pair<std::string, std::vector<const CaseResult*>>> by_test(cons
   return groups;
 }
 
-/// Cases that differ in their seed alone: a column of the results.
-using Repeats = std::vector<const CaseResult*>;
+using analysis::Repeats;  // a column of the results
 
-bool alike_but_for_seed(const dem::Record& a, const dem::Record& b) {
-  return std::ranges::equal(a.parameters, b.parameters, [](const auto& x, const auto& y) {
-    return x == y || (x.first == "seed" && y.first == "seed");
-  });
-}
-
-std::vector<Repeats> columns_of(const std::vector<const CaseResult*>& group) {
-  std::vector<Repeats> columns;
-  for (const CaseResult* result : group) {
-    const auto same = std::ranges::find_if(columns, [&](const Repeats& c) {
-      return result->record && c.front()->record && alike_but_for_seed(*c.front()->record, *result->record);
-    });
-    if (same == columns.end())
-      columns.push_back({result});
-    else
-      same->push_back(result);
-  }
-  return columns;
-}
-
-std::string shown_result(std::string_view name, double value) {
+/// In its shown unit, without it.
+std::string shown_result(const dem::Quantity& quantity, double value) {
   if (!std::isfinite(value)) return "–";
-  const bool whole = std::floor(value) == value && std::abs(value) < 1e15;
-  if (whole) return count(value);
-  const bool at_a_strain = name.find("MPa") != std::string_view::npos || name.ends_with("_at_largest_strain") ||
-                           name.ends_with("_at_largest_strain_GPa");
-  if (name.find("strain") != std::string_view::npos && !at_a_strain) {
-    return number(100 * value, 3) + " %";
-  }
-  if (name.find("share") != std::string_view::npos)
-    return std::abs(value) < 1e-3 ? number(100 * value, 2) + " %" : percent(value, 1);
-  return number(value, 3);
-}
-
-bool in_a_figure(std::string_view name) {
-  return name.starts_with("mineral_share.") || name.starts_with("contact_share.");
+  if (quantity.kind == dem::QuantityKind::count && std::floor(value) == value) return count(value);
+  return number(quantity.factor * value, quantity.digits);
 }
 
 std::string specimen_text(const StudyResult& study) {
@@ -160,14 +114,14 @@ std::optional<PageData> ledger_table(const StudyResult& study, const std::vector
   double largest = 0;
   for (const CaseResult* result : group) {
     const dem::Table* history = result->record->find("history");
-    if (!history || ledger_terms(*history).empty()) continue;
+    if (!history || analysis::ledger_terms(*history).empty()) continue;
     kept.push_back(result);
-    for (const LedgerTerm& term : ledger_terms(*history)) {
+    for (const analysis::LedgerTerm& term : analysis::ledger_terms(*history)) {
       largest = std::max(largest, std::abs(last_finite(history->real(term.column))));
     }
   }
   if (kept.empty()) return std::nullopt;
-  const bool bare = in_elastic_constants(kept.front()->record->table("history"));
+  const bool bare = analysis::in_elastic_constants(kept.front()->record->table("history"));
   const auto [factor, unit] = bare ? std::pair<double, std::string>{1e6, "10⁻⁶ k box²"} : energy_unit(largest);
   std::vector<std::string> heads;
   for (const CaseResult* result : kept) heads.push_back(case_label(study, *result));
@@ -179,7 +133,7 @@ std::optional<PageData> ledger_table(const StudyResult& study, const std::vector
   };
   std::vector<double> left(kept.size(), 0);  // work less all the rest
   bool residual = false;
-  for (const LedgerTerm& term : ledger_terms(kept.front()->record->table("history"))) {
+  for (const analysis::LedgerTerm& term : analysis::ledger_terms(kept.front()->record->table("history"))) {
     std::vector<std::string> values;
     bool some = false;
     for (std::size_t i = 0; i < kept.size(); ++i) {
@@ -187,11 +141,13 @@ std::optional<PageData> ledger_table(const StudyResult& study, const std::vector
       const double value = history.has(term.column) ? last_finite(history.real(term.column)) : 0;
       values.push_back(history.has(term.column) ? number(factor * value, 4) : "–");
       some = some || value != 0;
-      left[i] += term.role == LedgerTerm::Role::work ? value : term.role == LedgerTerm::Role::share ? -value : 0;
+      left[i] += term.role == analysis::LedgerTerm::Role::work    ? value
+                 : term.role == analysis::LedgerTerm::Role::share ? -value
+                                                                  : 0;
     }
-    residual = residual || term.role == LedgerTerm::Role::residual;
+    residual = residual || term.role == analysis::LedgerTerm::Role::residual;
     if (bare && !some) continue;  // walls that hold, or no grain that grows
-    add(term.label, values, term.role != LedgerTerm::Role::share);
+    add(term.label, values, term.role != analysis::LedgerTerm::Role::share);
   }
   if (!residual) {
     std::vector<std::string> values;
@@ -206,46 +162,32 @@ std::optional<PageData> ledger_table(const StudyResult& study, const std::vector
   return table;
 }
 
-// "pure_shear_spread_0_6" -> "pure shear spread 0.6"
-std::string id_words(std::string id) {
-  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  for (std::size_t i = 1; i + 1 < id.size(); ++i) {
-    if (id[i] == '_' && digit(id[i - 1]) && digit(id[i + 1])) id[i] = '.';
-  }
-  return words(id);
-}
-
 }  // namespace
 
 /// Whether the cases differ in a parameter: what all have alike is in the scenario.
-bool varies(const StudyResult& study, const std::string& name) {
+bool varies(const StudyResult& study, std::string_view parameter) {
   std::set<std::string> values;
   for (const CaseResult& result : study.cases) {
-    if (!result.record) continue;
-    for (const auto& [other, value] : result.record->parameters) {
-      if (other == name) values.insert(parameter_text(value));
-    }
+    if (const auto* value = dem::find_value(result.parameters, parameter)) values.insert(parameter_text(*value));
   }
   return values.size() > 1;
 }
 
 std::string case_label(const StudyResult& study, const CaseResult& result) {
-  if (!result.record) return id_words(result.id);
+  const dem::Parameters& first = study.cases.front().parameters;
   std::vector<std::string> parts;
-  std::string aspect_ratio;
-  for (const auto& [name, value] : result.record->parameters) {
-    if (name == "test") continue;
-    const auto first = std::ranges::find_if(study.cases, [](const CaseResult& c) { return c.record != nullptr; });
-    const auto base = std::ranges::find(first->record->parameters, name, [](const auto& p) { return p.first; });
-    const bool usual = base != first->record->parameters.end() && base->second == value;
-    const std::string part = parameter_words(name, value);
-    if (name == "aspect_ratio") aspect_ratio = part;
-    const bool of_axis = name == "aspect_ratio" || name == "dip" || name == "confining_pressure_MPa";
-    const bool told = of_axis ? varies(study, name) : name == "mineral" || !usual;
+  std::string aspect;  // what stands for a case that nothing sets apart
+  for (const auto& [id, value] : result.parameters) {
+    if (id == "test") continue;
+    const dem::Parameter& parameter = dem::find_parameter(study.parameters, id);
+    const auto* usual = dem::find_value(first, id);
+    const std::string part = parameter_words(parameter, value);
+    if (parameter.axis && aspect.empty()) aspect = part;
+    const bool told = parameter.axis ? varies(study, id) : parameter.symbol.empty() || !usual || *usual != value;
     if (told && !part.empty()) parts.push_back(part);
   }
-  if (parts.empty() && !aspect_ratio.empty()) parts.push_back(aspect_ratio);
-  return parts.empty() ? capital(id_words(result.id)) : joined(parts, ", ");
+  if (parts.empty() && !aspect.empty()) parts.push_back(aspect);
+  return parts.empty() ? capital(words(result.id)) : joined(parts, ", ");
 }
 
 PageData title_data(const StudyResult& study, const ReportOptions& options) {
@@ -277,7 +219,7 @@ PageData cases_data(const StudyResult& study) {
   PageData list = new_list();
   std::vector<const CaseResult*> all;
   for (const CaseResult& result : study.cases) all.push_back(&result);
-  for (const Repeats& repeats : columns_of(all)) {
+  for (const Repeats& repeats : analysis::repeats_of(all)) {
     const CaseResult& result = *repeats.front();
     PageData row;
     row.set("id", result.id);
@@ -285,20 +227,23 @@ PageData cases_data(const StudyResult& study) {
     if (result.record) {
       const dem::Record& record = *result.record;
       std::vector<std::string> parameters;
-      for (const auto& [name, value] : record.parameters) {
-        const bool said = name == "test" || !varies(study, name) || (name == "seed" && repeats.size() > 1);
-        const std::string part = said ? "" : parameter_words(name, value);
+      for (const auto& [id, value] : result.parameters) {
+        const bool said = id == "test" || !varies(study, id) || (id == "seed" && repeats.size() > 1);
+        const std::string part = said ? "" : parameter_words(dem::find_parameter(study.parameters, id), value);
         if (!part.empty()) parameters.push_back(part);
       }
       if (repeats.size() > 1) {
         std::vector<std::string> seeds;
-        for (const CaseResult* one : repeats) seeds.push_back(std::to_string(one->record->seed));
+        for (const CaseResult* one : repeats) {
+          if (one->record) seeds.push_back(std::to_string(one->record->seed));
+        }
         parameters.push_back("seeds " + listed(seeds));
       }
-      row.set("test", test_of(record));
+      row.set("test", words(result.test()));
       row.set("parameters", joined(parameters, ", "));
-      for (const char* name : {"particles", "contacts", "grains", "steps"}) {
-        row.set(name, record.has_result(name) ? count(record.result(name)) : "–");
+      using namespace dem::quantity;
+      for (const dem::Quantity& size : {particles, contacts, grains, steps}) {
+        row.set(std::string(size.id), record.has(size) ? count(record.value(size)) : "–");
       }
       row.set("seed", std::to_string(record.seed));
     } else {
@@ -381,20 +326,27 @@ PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
 namespace {
 
 // The value of one case, or mean and standard deviation of several.
-std::string result_text(const Repeats& column, const std::string& name) {
+std::string result_text(const Repeats& column, std::string_view id, const dem::Quantity& quantity) {
   std::vector<double> values;
   for (const CaseResult* result : column) {
-    if (result->record->has_result(name)) values.push_back(result->record->result(name));
+    if (const double* value = result->record->find_result(id)) values.push_back(*value);
   }
-  std::erase_if(values, [](double v) { return !std::isfinite(v); });
-  if (values.empty()) return "–";
-  if (values.size() == 1) return shown_result(name, values.front());
-  const auto n = static_cast<double>(values.size());
-  double mean = 0, square = 0;
-  for (const double v : values) mean += v / n;
-  for (const double v : values) square += (v - mean) * (v - mean);
-  if (square == 0) return shown_result(name, values.front());
-  return shown_result(name, mean) + " ± " + shown_result(name, std::sqrt(square / (n - 1)));
+  const analysis::Spread spread = analysis::spread(values);
+  if (spread.count == 0) return "–";
+  if (spread.deviation == 0) return shown_result(quantity, spread.mean);
+  return shown_result(quantity, spread.mean) + " ± " + shown_result(quantity, spread.deviation);
+}
+
+// Of those that figures do not show: families have as many members as the specimen has groups.
+std::vector<std::string> results_of(const std::vector<const CaseResult*>& group, const StudyResult& study) {
+  std::vector<std::string> ids;
+  for (const CaseResult* result : group) {
+    for (const auto& [id, value] : result->record->results) {
+      if (dem::find_quantity(study.quantities, id).family()) continue;
+      if (std::ranges::find(ids, id) == ids.end()) ids.push_back(id);
+    }
+  }
+  return ids;
 }
 
 }  // namespace
@@ -402,16 +354,10 @@ std::string result_text(const Repeats& column, const std::string& name) {
 PageData results_data(const StudyResult& study) {
   PageData tables = new_list();
   for (const auto& [test, group] : by_test(study)) {
-    const std::vector<Repeats> columns = columns_of(group);
+    const std::vector<Repeats> columns = analysis::repeats_of(group);
     const bool repeated = columns.size() < group.size();
     const std::size_t widest = repeated ? 4 : 8;  // columns that fit on a page
-    std::vector<std::string> names;
-    std::set<std::string> seen;
-    for (const CaseResult* result : group) {
-      for (const auto& [name, value] : result->record->results) {
-        if (!in_a_figure(name) && seen.insert(name).second) names.push_back(name);
-      }
-    }
+    const std::vector<std::string> ids = results_of(group, study);
     for (std::size_t from = 0; from < columns.size(); from += widest) {
       const std::span<const Repeats> shown(columns.data() + from, std::min(widest, columns.size() - from));
       std::vector<std::string> heads;
@@ -420,11 +366,11 @@ PageData results_data(const StudyResult& study) {
                         (column.size() > 1 ? fmt::format(" ({} seeds)", column.size()) : ""));
       }
       PageData rows = new_list();
-      for (const std::string& name : names) {
-        const auto [words_of_name, unit] = result_name(name);
+      for (const std::string& id : ids) {
+        const dem::Quantity& quantity = dem::find_quantity(study.quantities, id);
         std::vector<std::string> values;
-        for (const Repeats& column : shown) values.push_back(result_text(column, name));
-        rows.push_back(table_row(unit.empty() ? words_of_name : words_of_name + " (" + unit + ")", values));
+        for (const Repeats& column : shown) values.push_back(result_text(column, id, quantity));
+        rows.push_back(table_row(axis_title(quantity), values));
       }
       PageData table;
       table.set("test", capital(test.empty() ? "results" : words(test)));

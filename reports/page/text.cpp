@@ -36,51 +36,6 @@ std::string superscript(int exponent) {
   return text;
 }
 
-struct Named {
-  std::string_view key, name, unit;
-};
-
-constexpr std::array named{
-    Named{"young_modulus_GPa", "Young’s modulus", "GPa"},
-    Named{"poisson_ratio", "Poisson’s ratio", ""},
-    Named{"ucs_MPa", "Uniaxial compressive strength", "MPa"},
-    Named{"tensile_strength_MPa", "Tensile strength", "MPa"},
-    Named{"peak_strain", "Strain at the peak", ""},
-    Named{"crack_initiation_MPa.axial_stiffness", "Crack initiation stress, by axial stiffness", "MPa"},
-    Named{"crack_initiation_MPa.strain_0_1_percent", "Stress at 0.1 % axial strain", "MPa"},
-    Named{"crack_initiation_MPa.one_percent_of_cracks", "Crack initiation stress, 1 % of cracks at the peak", "MPa"},
-    Named{"crack_initiation_MPa.crack_volumetric_strain", "Crack initiation stress, by crack volumetric strain", "MPa"},
-    Named{"crack_damage_MPa", "Crack damage stress", "MPa"},
-    Named{"crack_damage_strain", "Strain at crack damage", ""},
-    Named{"inter_grain_share", "Inter-grain share of contacts", ""},
-    Named{"inter_grain_crack_share", "Inter-grain share of cracks", ""},
-    Named{"hoek_brown_m", "Hoek-Brown m", ""},
-    Named{"coordination", "Coordination number", ""},
-    Named{"porosity", "Porosity", ""},
-    Named{"cracks.intra_tension", "Cracks within grains, tension", ""},
-    Named{"cracks.intra_shear", "Cracks within grains, shear", ""},
-    Named{"cracks.inter_tension", "Cracks between grains, tension", ""},
-    Named{"cracks.inter_shear", "Cracks between grains, shear", ""},
-    Named{"energy_residual", "Energy residual", ""},
-    Named{"onset_strain", "Strain at the first break", ""},
-    Named{"peak_differential_stress_dimensionless", "Peak differential stress, in k", ""},
-    Named{"worst_step_share", "Share of the breaks in the worst step", ""},
-    Named{"radial_share", "Trends within 30° of the radius, share", ""},
-    Named{"along_compression_share", "Trends within 30° of the compression, share", ""},
-    Named{"across_extension_share", "Trends within 30° of across the extension, share", ""},
-    Named{"spacing_over_thickness", "Spacing of fractures over the thickness of the layer", ""},
-    Named{"spacing_scatter", "Scatter of the spacing, over its mean", ""},
-    Named{"spacing_scatter_chance", "The same of fractures at random", ""},
-    Named{"unbalanced_force_dimensionless", "Largest unbalanced over largest spring force", ""},
-    Named{"jumps", "Jumps from one equilibrium to another", ""},
-    Named{"jumped_share", "Share of the work released by jumps", ""},
-    Named{"solver.settled", "Solver, settlings by damped dynamics", ""},
-};
-
-constexpr std::array units{std::string_view{"GPa"}, std::string_view{"MPa"}, std::string_view{"kPa"},
-                           std::string_view{"Pa"},  std::string_view{"mm"},  std::string_view{"J"},
-                           std::string_view{"s"},   std::string_view{"m"}};
-
 }  // namespace
 
 std::string number(double value, int digits) {
@@ -125,23 +80,6 @@ std::string words(std::string_view id) {
   std::string text(id);
   std::ranges::replace(text, '_', ' ');
   return text;
-}
-
-std::pair<std::string, std::string> result_name(std::string_view key) {
-  const auto found = std::ranges::find(named, key, &Named::key);
-  if (found != named.end()) return {std::string(found->name), std::string(found->unit)};
-  std::string text(key);
-  std::string unit;
-  const std::size_t last = text.rfind('_');
-  if (last != std::string::npos && std::ranges::find(units, std::string_view(text).substr(last + 1)) != units.end()) {
-    unit = text.substr(last + 1);
-    text.resize(last);
-  }
-  for (std::size_t dot = text.find('.'); dot != std::string::npos; dot = text.find('.', dot))
-    text.replace(dot, 1, ", ");
-  text = words(text);
-  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
-  return {text, unit};
 }
 
 std::string parameter_text(const std::variant<double, std::string>& value) {

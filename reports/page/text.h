@@ -30,10 +30,6 @@ std::string joined(const std::vector<std::string>& items, std::string_view betwe
 /// "inter_quartz_biotite" -> "inter quartz biotite".
 std::string words(std::string_view id);
 
-/// A name and a unit in words for a result of a record ("young_modulus_GPa" -> {"Young's modulus", "GPa"}).
-/// Names that are not in the list are read from the key: words, the last part as unit when it is one.
-std::pair<std::string, std::string> result_name(std::string_view key);
-
 /// A parameter of a record as text: numbers short, words as they are.
 std::string parameter_text(const std::variant<double, std::string>& value);
 

@@ -1,21 +1,17 @@
 #pragma once
 // Published numbers (assets/papers/PAPER/published.json) beside ours. A file:
-//   {"model": "grain_texture", "paper": "Zhao et al. 2021", "scale": "paper",
-//    "numbers": [{"id", "scenarios": ["ldb_aspect_ratio"], "source": "Section 4.1", "quantity", "unit", "statement", "kind", ...}]}
+//   {"numbers": [{"id", "topics": ["aspect_ratio"], "source": "Section 4.1", "quantity", "unit", "statement", "kind", ...}],
+//    "quoted": [{"id", "source", "quantity", "unit", "published"}, ...]}
 // kind "value":   "published": 206.8 or [55, 60] (a range), "tolerance": {"relative": 0.1} or {"absolute": 0.03}, "of": TERM
-//      "trend":   "published": "rises" | "falls", "over": ["1", "2", "3"], "of": TERM; {} in case ids stands for these
-//                 numbers ("_sigma3_{}" is left out at 0); steps that the scenario has no cases for are left out;
-//                 "published_values": [...] are shown beside ours
+//      "trend":   "published": "rises" | "falls", "over": {"aspect_ratio": [1, 2, 3]}, "of": TERM; steps that the scenario has
+//                 no cases for are left out; "published_values": [...] are shown beside ours
 //      "greater": "of": TERM, "than": TERM: ours must be greater, as published
-// TERM: {"case": "compression_ar_1", "result": "ucs_MPa"}, {"quotient": [TERM, TERM]}, {"sum": [TERM, ...]},
-//       {"difference": [TERM, TERM]}, {"fit": "peak.m", "mineral": "quartz"} (reports/envelopes.h),
-//       {"case": "...", "measure": "crack_angle" | "stress_after_peak"} (from a case's tables); "times": 100 scales any of
-//       them (a fraction to percent).
+// TERM: see reports/published/terms.h. Which numbers concern a scenario: those with a topic of its key `published`; without
+// that key every number whose cases the scenario has.
 // Where a scenario repeats its cases with other seeds, values are means, and a trend must stand out of their scatter: the 95 %
 // interval of its slope must not hold zero. With one seed the sign of the slope decides.
-// "optional": true leaves the number out where the scenario has not the case.
-// "quoted": [{"id", "source", "quantity", "unit", "published"}, ...] are numbers of the paper that figures show and nothing of
-// ours is compared with.
+// "optional": true leaves the number out where the scenario has not the case. "quoted" are numbers of the paper that figures
+// show and nothing of ours is compared with.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -23,8 +19,8 @@
 #include <variant>
 #include <vector>
 
-#include "reports/figure.h"
 #include "engine/analysis/fits.h"
+#include "reports/figure.h"
 
 namespace reports {
 
@@ -44,9 +40,9 @@ struct Comparison {
   bool relative = false;     ///< deviation and tolerance are fractions of the published value
   Verdict verdict = Verdict::not_computed;
   std::optional<analysis::Estimate> estimate;  ///< of a fit, the value with its interval; of a trend, its slope
-  std::optional<double> p_value;     ///< of a trend's slope
-  std::string published_detail;      ///< the published values that make a trend: "206.8 → 201.3 → 198.4"
-  std::string detail;                ///< what trends are made of, or why nothing could be computed
+  std::optional<double> p_value;               ///< of a trend's slope
+  std::string published_detail;                ///< the published values that make a trend: "206.8 → 201.3 → 198.4"
+  std::string detail;                          ///< what trends are made of, or why nothing could be computed
 };
 
 struct Comparisons {

@@ -291,7 +291,7 @@ TEST_CASE("tests under confining pressure have a rate of their own") {
   };
   const std::string both = R"(sweep.confining_pressure=["0 MPa", "10 MPa"])";
   const auto rate = [](const dem::CaseSpec& spec) { return read_settings(spec.scenario, TestKind::compression).rate; };
-  const auto own = cases({both, "compression.rate=5e-8", "confined_compression.rate=1e-7"});
+  const auto own = cases({both, "compression.rate=5e-8", "compression.confined_rate=1e-7"});
   CHECK(rate(own[0]) == 5e-8);
   CHECK(rate(own[1]) == 1e-7);
   const auto same = cases({both, "compression.rate=1e-7"});

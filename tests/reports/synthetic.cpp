@@ -11,8 +11,11 @@
 #include "engine/core/files.h"
 #include "engine/core/random.h"
 #include "engine/texture/keys.h"
+#include "engine/texture/quantities.h"
 
 namespace synthetic {
+
+namespace quantity = dem::texture::quantity;
 namespace {
 
 using Vec = std::array<double, 3>;
@@ -332,7 +335,6 @@ void add_snapshots(dem::Record& record, const Curve& c, const CrackList& list) {
 }
 
 void add_shares(dem::Record& record, const Body& body) {
-  const auto add = [&](const std::string& name, double value) { record.results.emplace_back(name, value); };
   const auto joined = [](std::string name) {
     std::ranges::replace(name, ' ', '_');
     return name;
@@ -349,14 +351,15 @@ void add_shares(dem::Record& record, const Body& body) {
                                : "intra_" + first];
   }
   const auto all = static_cast<double>(body.pairs.size());
-  add("inter_grain_share", between / all);
-  add("coordination", 2 * all / static_cast<double>(body.radius.size()));
-  add("porosity", 0.33);
+  record.put(quantity::inter_grain_share, between / all);
+  record.put(quantity::coordination, 2 * all / static_cast<double>(body.radius.size()));
+  record.put(quantity::porosity, 0.33);
   for (std::size_t m = 0; m < minerals.size(); ++m) {
     const auto n = std::ranges::count(body.mineral, static_cast<std::int32_t>(m));
-    add("mineral_share." + joined(minerals[m]), static_cast<double>(n) / static_cast<double>(body.mineral.size()));
+    record.put(quantity::mineral_share, joined(minerals[m]),
+               static_cast<double>(n) / static_cast<double>(body.mineral.size()));
   }
-  for (const auto& [name, n] : groups) add("contact_share." + name, n / all);
+  for (const auto& [name, n] : groups) record.put(quantity::contact_share, name, n / all);
 }
 
 dem::Record start(const std::string& test, double aspect_ratio, const Body& body, const Options& options) {
@@ -366,6 +369,7 @@ dem::Record start(const std::string& test, double aspect_ratio, const Body& body
   record.case_id = fmt::format("{}_ar_{:g}", test, aspect_ratio);
   record.physics_version = "test";
   record.seed = 1;
+  record.quantities = dem::texture::quantities();
   record.parameters = {{"test", test}, {"aspect_ratio", aspect_ratio}, {"dip", 0.0}, {"seed_scale", 1.0}};
   record.tables = {particles_table(body, options, aspect_ratio), grains_table(body, aspect_ratio),
                    contacts_table(body)};
@@ -375,15 +379,13 @@ dem::Record start(const std::string& test, double aspect_ratio, const Body& body
 void finish(dem::Record& record, const Body& body, const CrackList& list) {
   std::array<double, 4> n{};
   for (std::size_t k = 0; k < list.mode.size(); ++k) ++n[static_cast<std::size_t>(2 * list.place[k] + list.mode[k])];
-  const std::array<const char*, 4> names{"cracks.intra_tension", "cracks.intra_shear", "cracks.inter_tension",
-                                         "cracks.inter_shear"};
-  for (std::size_t k = 0; k < 4; ++k) record.results.emplace_back(names[k], n[k]);
+  for (std::size_t k = 0; k < 4; ++k) record.put(quantity::cracks[k], n[k]);
   add_shares(record, body);
-  record.results.emplace_back("energy_residual", 2.2e-4);
-  record.results.emplace_back("steps", 19900);
-  record.results.emplace_back("particles", static_cast<double>(body.radius.size()));
-  record.results.emplace_back("contacts", static_cast<double>(body.pairs.size()));
-  record.results.emplace_back("grains", static_cast<double>(body.seed.size()));
+  record.put(quantity::energy_residual, 2.2e-4);
+  record.put(quantity::steps, 19900);
+  record.put(quantity::particles, static_cast<double>(body.radius.size()));
+  record.put(quantity::contacts, static_cast<double>(body.pairs.size()));
+  record.put(quantity::grains, static_cast<double>(body.seed.size()));
   record.checks = {
       {"energy_residual", 2.2e-4, 1e-2, true, "The largest residual of the energy ledger over the work done."},
       {"equilibrium", 0.006, 0.02, true, "The forces on the two platens differ by no more than this share."}};
@@ -402,15 +404,15 @@ dem::Record compression(double aspect_ratio, const Options& options) {
   record.tables.push_back(cracks_table(list));
   record.tables.push_back(history_table(c, list, options));
   add_snapshots(record, c, list);
-  record.results = {{"young_modulus_GPa", 70.3},
-                    {"poisson_ratio", 0.166},
-                    {"ucs_MPa", 1e-6 * c.peak},
-                    {"peak_strain", c.peak_strain},
-                    {"crack_initiation_MPa.axial_stiffness", 72.5},
-                    {"crack_initiation_MPa.strain_0_1_percent", 69.7 - aspect_ratio},
-                    {"crack_initiation_MPa.one_percent_of_cracks", 81.0},
-                    {"crack_damage_MPa", 1e-6 * stress_at(c, 0.8 * c.peak_strain)},
-                    {"crack_damage_strain", 0.8 * c.peak_strain}};
+  record.put(quantity::young_modulus, 70.3);
+  record.put(quantity::poisson_ratio, 0.166);
+  record.put(quantity::compressive_strength, 1e-6 * c.peak);
+  record.put(quantity::peak_strain, c.peak_strain);
+  record.put(quantity::initiation_by_stiffness, 72.5);
+  record.put(quantity::stress_at_strain, 69.7 - aspect_ratio);
+  record.put(quantity::initiation_by_cracks, 81.0);
+  record.put(quantity::crack_damage, 1e-6 * stress_at(c, 0.8 * c.peak_strain));
+  record.put(quantity::crack_damage_strain, 0.8 * c.peak_strain);
   finish(record, body, list);
   return record;
 }
@@ -426,8 +428,9 @@ dem::Record direct_tension(double aspect_ratio, const Options& options) {
   dem::Record record = start("direct_tension", aspect_ratio, body, options);
   record.tables.push_back(cracks_table(list));
   record.tables.push_back(history_table(c, list, options));
-  record.results = {
-      {"young_modulus_GPa", 52.1}, {"tensile_strength_MPa", 1e-6 * c.peak}, {"peak_strain", c.peak_strain}};
+  record.put(quantity::young_modulus, 52.1);
+  record.put(quantity::tensile_strength, 1e-6 * c.peak);
+  record.put(quantity::peak_strain, c.peak_strain);
   finish(record, body, list);
   return record;
 }
@@ -444,19 +447,36 @@ dem::Scenario scenario(const std::filesystem::path& folder, const std::string& n
   return dem::Scenario::read(file.string(), "draft", {}, [](std::string_view) { return dem::texture::keys(); });
 }
 
-Study::Study(const std::filesystem::path& folder, const Options& options) : scenario_(scenario(folder)) {
+namespace {
+
+// As the shipped scenario of this name.
+const std::string figures =
+    "[\"specimen\", \"grain_cluster\", \"progressive_failure\", \"crack_stages\", \"stress_strain\", \"crack_maps\", "
+    "\"crack_counts\", \"group_shares\", \"energy_compression\", \"energy_tension\"]";
+
+}  // namespace
+
+Study::Study(const std::filesystem::path& folder, const Options& options)
+    : scenario_(scenario(folder, "ldb_aspect_ratio", "published = [\"aspect_ratio\"]\nfigures = " + figures)) {
   for (const double aspect_ratio : {1.0, 2.0, 3.0}) records_.push_back(compression(aspect_ratio, options));
   for (const double aspect_ratio : {1.0, 2.0, 3.0}) records_.push_back(direct_tension(aspect_ratio, options));
 }
 
+reports::StudyResult study_of(const dem::Scenario& scenario, const std::vector<dem::Record>& records) {
+  reports::StudyResult study{.scenario = &scenario,
+                             .cases = {},
+                             .quantities = dem::texture::quantities(),
+                             .parameters = dem::texture::parameters()};
+  for (const dem::Record& record : records) study.cases.push_back({record.case_id, record.parameters, &record, ""});
+  return study;
+}
+
 reports::StudyResult Study::result() const {
-  reports::StudyResult study{&scenario_, {}};
-  for (const dem::Record& record : records_) {
-    const auto failed = std::ranges::find(failures_, record.case_id, [](const auto& f) { return f.first; });
-    if (failed == failures_.end())
-      study.cases.push_back({record.case_id, &record, ""});
-    else
-      study.cases.push_back({record.case_id, nullptr, failed->second});
+  reports::StudyResult study = study_of(scenario_, records_);
+  for (const auto& [id, error] : failures_) {
+    reports::CaseResult& failed = *std::ranges::find(study.cases, id, &reports::CaseResult::id);
+    failed.record = nullptr;
+    failed.error = error;
   }
   return study;
 }

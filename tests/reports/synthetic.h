@@ -35,6 +35,9 @@ class Study {
   std::vector<std::pair<std::string, std::string>> failures_;
 };
 
+/// Records of the grain texture model as a study of a scenario.
+reports::StudyResult study_of(const dem::Scenario& scenario, const std::vector<dem::Record>& records);
+
 /// A scenario of the grain texture model with the common keys only.
 dem::Scenario scenario(const std::filesystem::path& folder, const std::string& name = "ldb_aspect_ratio",
                        const std::string& more = "");

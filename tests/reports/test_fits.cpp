@@ -120,8 +120,8 @@ TEST_CASE("what cannot be fitted is not") {
   CHECK_FALSE(dem::analysis::fit_peak_envelope(std::vector{10.0, 10.0}, std::vector{200.0, 210.0}));
   CHECK_FALSE(dem::analysis::fit_peak_envelope(std::vector{0.0, 10.0}, std::vector{200.0, std::nan("")}));
   CHECK_FALSE(dem::analysis::fit_damage_envelope(std::vector{0.0, 10.0}, std::vector{100.0, 150.0}, 0));
-  const auto two =
-      dem::analysis::fit_peak_envelope(std::vector{0.0, 20.0}, std::vector{206.0, dem::analysis::hoek_brown(20, 206, 29, 1)});
+  const auto two = dem::analysis::fit_peak_envelope(std::vector{0.0, 20.0},
+                                                    std::vector{206.0, dem::analysis::hoek_brown(20, 206, 29, 1)});
   REQUIRE(two);
   CHECK(two->m.value == Approx(29));
   CHECK_FALSE(two->m.has_interval());

@@ -7,16 +7,17 @@
 #include <numbers>
 #include <numeric>
 
-#include "reports/envelopes.h"
+#include "engine/analysis/orientation.h"
 #include "reports/figures/table.h"
 #include "reports/figures/texture/parts.h"
-#include "engine/analysis/orientation.h"
-#include "reports/published/published.h"
 #include "reports/output/summary.h"
+#include "reports/published/published.h"
 #include "tests/reports/synthetic.h"
 #include "tests/support/scratch.h"
 
 namespace {
+
+namespace quantity = dem::texture::quantity;
 
 using doctest::Approx;
 
@@ -28,7 +29,8 @@ struct Made {
   dem::Scenario scenario;
   std::vector<dem::Record> records;
 
-  explicit Made(const std::string& name) : scenario(synthetic::scenario(scratch.path(), name)) {}
+  explicit Made(const std::string& name, const std::string& more = "")
+      : scenario(synthetic::scenario(scratch.path(), name, more)) {}
 
   static const dem::Record& pattern() {
     static const dem::Record record = synthetic::compression(1, small);
@@ -39,10 +41,11 @@ struct Made {
     dem::Record record = pattern();
     record.case_id = id;
     record.parameters = {
-        {"test", test}, {"aspect_ratio", 1.0}, {"dip", dip}, {"mineral", mineral}, {"confining_pressure_MPa", pressure},
+        {"test", test}, {"aspect_ratio", 1.0}, {"dip", dip}, {"mineral", mineral}, {"confining_pressure", pressure},
         {"seed", seed}};
     std::erase_if(record.results, [](const auto& r) {
-      return r.first == "ucs_MPa" || r.first == "crack_damage_MPa" || r.first == "crack_initiation_MPa.axial_stiffness";
+      return r.first == "compressive_strength" || r.first == "crack_damage" ||
+             r.first == "crack_initiation.axial_stiffness";
     });
     records.push_back(record);
     return records.back();
@@ -51,19 +54,14 @@ struct Made {
     std::string id = "compression_" + (mineral.empty() ? "ar_1" : mineral);
     if (pressure > 0) id += "_sigma3_" + std::to_string(static_cast<int>(pressure));
     if (seed > 1) id += "_seed_" + std::to_string(static_cast<int>(seed));
-    auto& results = add(id, "compression", pressure, 0, mineral, seed).results;
-    results.emplace_back(pressure > 0 ? "confined_strength_MPa" : "ucs_MPa",
-                         dem::analysis::hoek_brown(pressure, 206, 29, 1) + more);
-    results.emplace_back("crack_damage_MPa", dem::analysis::hoek_brown(pressure, 206, 16, 0.6) + more);
-    results.emplace_back("crack_initiation_MPa.axial_stiffness", 71.1 + 1.1 * pressure);
-    results.emplace_back("residual_over_peak", 0.2 + 0.01 * pressure);
-    if (pressure > 0) results.emplace_back("servo_error", 0.004);
+    dem::Record& record = add(id, "compression", pressure, 0, mineral, seed);
+    record.put(quantity::compressive_strength, dem::analysis::hoek_brown(pressure, 206, 29, 1) + more);
+    record.put(quantity::crack_damage, dem::analysis::hoek_brown(pressure, 206, 16, 0.6) + more);
+    record.put(quantity::initiation_by_stiffness, 71.1 + 1.1 * pressure);
+    record.put(quantity::residual_over_peak, 0.2 + 0.01 * pressure);
+    if (pressure > 0) record.put(quantity::servo_error, 0.004);
   }
-  [[nodiscard]] reports::StudyResult study() const {
-    reports::StudyResult result{&scenario, {}};
-    for (const auto& record : records) result.cases.push_back({record.case_id, &record, ""});
-    return result;
-  }
+  [[nodiscard]] reports::StudyResult study() const { return synthetic::study_of(scenario, records); }
 };
 
 void set_table(dem::Record& record, const dem::Table& table) {
@@ -99,14 +97,14 @@ TEST_CASE("envelopes are fitted through the cases of a study, each rock or miner
   Made made("ldb_confinement");
   for (const double pressure : {0.0, 5.0, 10.0, 20.0, 40.0, 60.0}) made.add_confined(pressure);
   made.add_confined(20, "quartz", 300);
-  const auto found = reports::envelopes_of(made.study());
+  const auto found = reports::texture::envelopes_of(made.study());
   CHECK(found.find("peak.m")->value == Approx(29).epsilon(1e-6));
   CHECK(found.find("free.sigma_c")->value == Approx(206).epsilon(1e-6));
   CHECK(found.find("free.m")->value == Approx(29).epsilon(1e-6));
   CHECK(found.find("damage.s")->value == Approx(0.6).epsilon(1e-6));
   CHECK(found.find("initiation.axial_stiffness.slope")->value == Approx(1.1));
-  CHECK_FALSE(reports::envelopes_of(made.study(), "quartz").find("peak.m"));
-  CHECK(reports::envelopes_of(made.study(), "quartz").peak.sigma_3.size() == 1);
+  CHECK_FALSE(reports::texture::envelopes_of(made.study(), "quartz").find("peak.m"));
+  CHECK(reports::texture::envelopes_of(made.study(), "quartz").peak.sigma_3.size() == 1);
 }
 
 TEST_CASE("figures under confinement say what the records hold") {
@@ -249,15 +247,17 @@ TEST_CASE("repeats give means, error bars and trends over all seeds") {
   }
   const auto cases = reports::texture::swept(made.study(), "compression");
   REQUIRE(cases.size() == 3);
-  const auto damage = reports::spread_of(cases[0], reports::result("crack_damage_MPa"));
+  const auto damage = dem::analysis::spread(cases[0], reports::shown(quantity::crack_damage));
   CHECK(damage.mean == Approx(206 * std::sqrt(0.6)));
   CHECK(damage.deviation == Approx(std::sqrt(18.0)));
-  CHECK(reports::means(cases, reports::result("crack_damage_MPa")).y_error.size() == 3);
-  const auto trend = reports::trend_of(cases, reports::result("crack_damage_MPa"));
+  CHECK(reports::means(cases, reports::shown(quantity::crack_damage)).y_error.size() == 3);
+  const auto trend = reports::trend_of(cases, reports::shown(quantity::crack_damage));
   CHECK(trend->points == 6);
-  CHECK(has(reports::trend_words(cases, reports::result("crack_damage_MPa"), "MPa", reports::texture::confining_axis),
+  CHECK(has(reports::trend_words(cases, reports::shown(quantity::crack_damage), "MPa",
+                                 dem::texture::parameter::confining_pressure),
             "rises by"));
-  CHECK(has(reports::trend_words(cases, reports::result("young_modulus_GPa"), "GPa", reports::texture::confining_axis),
+  CHECK(has(reports::trend_words(cases, reports::shown(quantity::young_modulus), "GPa",
+                                 dem::texture::parameter::confining_pressure),
             "no trend"));
 }
 
@@ -294,10 +294,10 @@ TEST_CASE("published numbers of the granite are compared with fits, means and tr
   CHECK(residual.estimate->value == Approx(0.01));
 }
 
-TEST_CASE("each scenario of the granite has its published numbers, with unlike ids") {
-  for (const char* name : {"ldb_uniaxial", "ldb_confinement", "ldb_dip_angle", "ldb_minerals"}) {
-    CAPTURE(name);
-    const Made made(name);
+TEST_CASE("each topic of the granite has its published numbers, with unlike ids") {
+  for (const std::string topic : {"uniaxial", "confinement", "dip_angle", "minerals"}) {
+    CAPTURE(topic);
+    const Made made("study", "published = [\"" + topic + "\"]");
     const auto rows = reports::compare(made.study(), std::filesystem::path(DEM_SOURCE_DIR) / "assets/papers").rows;
     CHECK(rows.size() >= 10);
     std::vector<std::string> ids;

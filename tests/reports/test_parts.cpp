@@ -5,13 +5,14 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "engine/analysis/ledger.h"
+#include "engine/texture/quantities.h"
 #include "reports/output/csv.h"
 #include "reports/output/drawing.h"
-#include "reports/ledger.h"
-#include "reports/page/page.h"
-#include "reports/page/page_parts.h"
 #include "reports/output/pdf.h"
 #include "reports/output/summary.h"
+#include "reports/page/page.h"
+#include "reports/page/page_parts.h"
 #include "reports/page/text.h"
 #include "tests/reports/synthetic.h"
 #include "tests/support/scratch.h"
@@ -30,8 +31,6 @@ TEST_CASE("numbers as a reader sees them") {
   CHECK(reports::with_sign(reports::fixed(1.5, 1)) == "+1.5");
   CHECK(reports::with_sign(reports::fixed(-1.5, 1)) == "\u22121.5");
   CHECK(reports::listed({"a", "b", "c"}) == "a, b and c");
-  CHECK(reports::result_name("crack_damage_MPa") == std::pair<std::string, std::string>("Crack damage stress", "MPa"));
-  CHECK(reports::result_name("new_quantity_GPa") == std::pair<std::string, std::string>("New quantity", "GPa"));
 }
 
 TEST_CASE("CSV quotes what needs it and keeps every point") {
@@ -95,43 +94,47 @@ TEST_CASE("base64 and links") {
 }
 
 TEST_CASE("the ledger takes every energy of a history in its role") {
-  const auto terms = reports::ledger_terms(synthetic::compression(1, {.samples = 3}).table("history"));
+  const auto terms = dem::analysis::ledger_terms(synthetic::compression(1, {.samples = 3}).table("history"));
   REQUIRE(terms.size() == 8);
-  CHECK(terms.front().role == reports::LedgerTerm::Role::work);
+  CHECK(terms.front().role == dem::analysis::LedgerTerm::Role::work);
   CHECK(terms[1].label == "Elastic");
-  CHECK(terms.back().role == reports::LedgerTerm::Role::residual);
+  CHECK(terms.back().role == dem::analysis::LedgerTerm::Role::residual);
 
   dem::Table sheet;  // energies in elastic constants, beside other numbers without a unit
   sheet.name = "history";
   for (const char* name : {"strain", "elastic", "released", "boundary_work", "growth_work"})
     sheet.add(name, "1", std::vector<double>{1.0});
-  const auto of_sheet = reports::ledger_terms(sheet);
+  const auto of_sheet = dem::analysis::ledger_terms(sheet);
   REQUIRE(of_sheet.size() == 4);
-  CHECK(reports::in_elastic_constants(sheet));
-  CHECK(of_sheet[0].role == reports::LedgerTerm::Role::work);
+  CHECK(dem::analysis::in_elastic_constants(sheet));
+  CHECK(of_sheet[0].role == dem::analysis::LedgerTerm::Role::work);
   CHECK(of_sheet[1].label == "Work of growing grains");
-  CHECK(of_sheet[3].role == reports::LedgerTerm::Role::share);
+  CHECK(of_sheet[3].role == dem::analysis::LedgerTerm::Role::share);
 }
 
 TEST_CASE("summary.json has the promised structure") {
   const test::Scratch scratch;
   synthetic::Study study(scratch.path(), {.diameter = 3e-3, .height = 6e-3, .samples = 5});
   study.fail("direct_tension_ar_3", "the solution blew up");
-  study.record("compression_ar_1").results.emplace_back("hoek_brown_m", std::nan(""));
+  study.record("compression_ar_1").put(dem::texture::quantity::residual_over_peak, std::nan(""));
   const auto result = study.result();
   const auto comparisons = reports::compare(result, std::filesystem::path(DEM_SOURCE_DIR) / "assets/papers");
   const std::string text = reports::summary_json(result, comparisons, {});
   const auto json = nlohmann::json::parse(text);
+  CHECK(json.at("format") == 2);
+  CHECK(json.at("quantities").at("young_modulus").at("unit") == "GPa");
+  CHECK(json["quantities"].at("contact_share.*").at("kind") == "result");
+  CHECK_FALSE(json["quantities"].contains("gap_share"));
   CHECK(json.at("scenario") == "ldb_aspect_ratio");
   CHECK(json.at("scale") == "draft");
   REQUIRE(json.at("cases").size() == 6);
   const auto& first = json["cases"][0];
   CHECK(first.at("id") == "compression_ar_1");
   CHECK(first.at("parameters").at("aspect_ratio") == 1);
-  CHECK(first.at("results").at("young_modulus_GPa") == 70.3);
-  CHECK(first["results"].at("crack_initiation_MPa").at("strain_0_1_percent").is_number());
+  CHECK(first.at("results").at("young_modulus") == 70.3);
+  CHECK(first["results"].at("crack_initiation").at("strain_0_1_percent").is_number());
   CHECK(first["results"].at("cracks").at("inter_tension").is_number_integer());
-  CHECK_FALSE(first["results"].contains("hoek_brown_m"));
+  CHECK_FALSE(first["results"].contains("residual_over_peak"));
   CHECK(json["cases"][5].at("error") == "the solution blew up");
   CHECK(json.at("checks")[0].at("id") == "compression_ar_1.energy_residual");
   for (const char* key : {"value", "limit", "held"}) CHECK(json["checks"][0].contains(key));
@@ -156,10 +159,14 @@ TEST_CASE("cases are told apart by what sets them apart") {
   dem::Record base, small;
   base.parameters = {{"test", "compression"}, {"aspect_ratio", 1.0}, {"seed_scale", 1.0}};
   small.parameters = {{"test", "compression"}, {"aspect_ratio", 1.0}, {"seed_scale", 0.675}};
-  const reports::StudyResult study{&scenario, {{"a", &base, ""}, {"b", &small, ""}, {"c_d", nullptr, "failed"}}};
+  const reports::StudyResult study{
+      .scenario = &scenario,
+      .cases = {{"a", base.parameters, &base, ""}, {"b", small.parameters, &small, ""}, {"c_d", {}, nullptr, "failed"}},
+      .quantities = dem::texture::quantities(),
+      .parameters = dem::texture::parameters()};
   CHECK(reports::case_label(study, study.cases[0]) == "AR 1");
   CHECK(reports::case_label(study, study.cases[1]) == "seed scale 0.675");
-  CHECK(reports::case_label(study, study.cases[2]) == "c d");
+  CHECK(reports::case_label(study, study.cases[2]) == "C d");
 }
 
 TEST_CASE("a series that fills a row begins one after another such series") {

@@ -6,9 +6,12 @@
 
 #include "engine/core/errors.h"
 #include "engine/sheet/model.h"
+#include "engine/sheet/quantities.h"
 #include "tests/support/scratch.h"
 
 namespace {
+
+namespace quantity = dem::sheet::quantity;
 
 using namespace dem::sheet;
 
@@ -47,7 +50,7 @@ TEST_CASE("a solver beside the main one runs the first spread only; ids tell cas
   REQUIRE(cases.size() == 4);
   CHECK(cases[0].id == "pure_shear_spread_0_6");
   CHECK(cases[3].id == "pure_shear_spread_0_6_as_published");
-  for (const auto& spec : cases) CHECK(spec.content.find("solvers") != std::string::npos);
+  for (const auto& spec : cases) CHECK(spec.content.find("kind = ") != std::string::npos);
 }
 
 TEST_CASE("values that are wrong together are refused with their place") {
@@ -72,9 +75,9 @@ TEST_CASE("a record holds what figures and summary need") {
   auto s = scenario("elle_layer_extension",
                     {"sheet.columns=40", "loading.steps=24", "grains.layer_low=0.45", "grains.layer_high=0.55"});
   const dem::Record r = run(model().cases(s).front());
-  CHECK(r.result("particles") == 40 * 46);
+  CHECK(r.value(quantity::particles) == 40 * 46);
   CHECK(r.table("particles").rows() == 40 * 46);
-  const double cracks = r.result("cracks.intra_tension") + r.result("cracks.inter_tension");
+  const double cracks = r.value(quantity::cracks_intra_tension) + r.value(quantity::cracks_inter_tension);
   CHECK(cracks > 10);
   CHECK(static_cast<double>(r.table("cracks").rows()) == cracks);
   CHECK(r.table("history").rows() == 24);
@@ -92,7 +95,7 @@ TEST_CASE("a grain file given by the scenario is used, and is part of the conten
   set.push_back("grains.file=\"" + file.string() + "\"");
   set.push_back("loading.steps=3");
   const auto first = model().cases(scenario("elle_polycrystal", set)).front();
-  CHECK(run(first).result("grains") == 20);
+  CHECK(run(first).value(quantity::grains) == 20);
   std::ofstream(file) << elle_text(voronoi_map({21, 2, true, 1.0, 7}));
   CHECK(model().cases(scenario("elle_polycrystal", set)).front().content != first.content);
 }

@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <array>
+
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -20,8 +22,13 @@ dem::Record example() {
   record.physics_version = "3";
   record.seed = 18446744073709551615ULL;
   record.parameters = {{"test", std::string("compression")}, {"aspect_ratio", 2.0}, {"empty", std::string()}};
-  record.results = {
-      {"ucs_MPa", 206.8}, {"cracks.intra_tension", 12}, {"a_first", std::numeric_limits<double>::quiet_NaN()}};
+  static constexpr std::array declared{dem::Quantity{.id = "strength", .name = "Strength", .unit = "MPa"},
+                                       dem::Quantity{.id = "cracks.*", .name = "Cracks"},
+                                       dem::Quantity{.id = "a_first", .name = "A"}};
+  record.quantities = declared;
+  record.put(declared[0], 206.8);
+  record.put(declared[1], "intra_tension", 12);
+  record.put(declared[2], std::numeric_limits<double>::quiet_NaN());
   record.checks = {{"servo", 0.004, 0.01, true, "The wall keeps its pressure."}, {"energy", 0.02, 0.01, false, "α"}};
   record.notes = {"The curve had flattened.", "Größe 0.35 mm"};
   dem::Table history{"history", {{"sign", "compression positive"}}, {}};

@@ -23,32 +23,59 @@ using dem::CaseState;
 
 std::span<const dem::Key> counter_keys() {
   static const std::vector<dem::Key> keys = {
-      {.path = "load.stress", .unit = "MPa", .low = 0, .high = 1000, .standard = "\"100 MPa\"", .help = "of the test"},
-      {.path = "load.steps", .type = dem::KeyType::integer, .low = 1, .standard = "10", .help = "to count"},
-      {.path = "load.fails_at", .type = dem::KeyType::integer, .standard = "-1", .help = "value whose case fails"},
+      {.path = "load.stress",
+       .unit = "MPa",
+       .low = 0,
+       .high = 1000,
+       .standard = "\"100 MPa\"",
+       .affects = dem::Affects::test,
+       .help = "of the test"},
+      {.path = "load.steps",
+       .type = dem::KeyType::integer,
+       .low = 1,
+       .standard = "10",
+       .affects = dem::Affects::test,
+       .help = "to count"},
+      {.path = "load.fails_at",
+       .type = dem::KeyType::integer,
+       .standard = "-1",
+       .affects = dem::Affects::test,
+       .help = "value whose case fails"},
       {.path = "load.breaks_at",
        .type = dem::KeyType::integer,
        .standard = "-1",
+       .affects = dem::Affects::test,
        .help = "value whose case meets a full disk"},
-      {.path = "load.value", .standard = "0", .help = "of a case"},
-      {.path = "sweep.value", .type = dem::KeyType::reals, .standard = "[1, 2, 3]", .help = "one case each"},
+      {.path = "load.value", .standard = "0", .affects = dem::Affects::test, .help = "of a case"},
+      {.path = "sweep.value",
+       .type = dem::KeyType::reals,
+       .standard = "[1, 2, 3]",
+       .affects = dem::Affects::cases,
+       .help = "one case each"},
   };
   return keys;
 }
 
 int threads_asked = 1;  ///< by each case
 
+constexpr dem::Quantity sum{.id = "sum", .name = "Sum"};
+std::span<const dem::Quantity> counter_quantities() { return {&sum, 1}; }
+std::span<const dem::Parameter> counter_parameters() {
+  static constexpr dem::Parameter value{.id = "value", .name = "Value", .key = "load.value"};
+  return {&value, 1};
+}
+
+template <int version>
+dem::Model counter();
+
 template <int version>
 std::vector<dem::CaseSpec> counter_cases(const dem::Scenario& scenario) {
-  const std::vector<std::string> prefixes = {"load.", "seed"};
   std::vector<dem::CaseSpec> cases;
   for (const double value : scenario.reals("sweep.value")) {
-    const dem::Scenario one = scenario.with("load.value", value);
-    cases.push_back({"count_" + std::to_string(static_cast<int>(value)),
-                     one,
-                     one.canonical(prefixes) + "physics version = " + std::to_string(version) + "\n",
-                     {{"value", value}},
-                     threads_asked});
+    cases.push_back(dem::make_case(counter<version>(), "count_" + dem::id_part(value),
+                                   scenario.with("load.value", value), {{"test", "count"}, {"value", value}},
+                                   {"count"}));
+    cases.back().threads = threads_asked;
   }
   return cases;
 }
@@ -132,16 +159,21 @@ dem::Record counter_run(const dem::CaseSpec& spec, dem::RunContext& context) {
     state.sum += value / static_cast<double>(state.step + 1);
     context.report({"counting", state.step, static_cast<double>(state.step) / static_cast<double>(steps), 0, 0});
   }
-  dem::Record record;
-  record.results = {{"sum", state.sum}};
+  dem::Record record = dem::new_record(counter<1>(), spec);
+  record.put(sum, state.sum);
   record.checks = {{"counted", 0, 1, true, "It counts."}};
   return record;
 }
 
 template <int version>
-std::vector<dem::Model> models_of_version() {
+dem::Model counter() {
   static const std::string text = std::to_string(version);
-  return {{"counter", text, counter_keys, counter_cases<version>, counter_run}};
+  return {"counter", text, counter_keys, counter_quantities, counter_parameters, counter_cases<version>, counter_run};
+}
+
+template <int version>
+std::vector<dem::Model> models_of_version() {
+  return {counter<version>()};
 }
 
 /// A folder with a scenario, and what a run of it told.
@@ -200,7 +232,7 @@ TEST_CASE("a finished case is kept; a second call simulates nothing") {
   const std::string bytes = dem::read_file(bench.record("count_2"));
   const auto second = bench.run();
   CHECK(states(second) == std::vector{kept, kept, kept});
-  CHECK(second.at(1).record->result("sum") == first.at(1).record->result("sum"));
+  CHECK(second.at(1).record->value(sum) == first.at(1).record->value(sum));
   CHECK(dem::read_file(bench.record("count_2")) == bytes);
 }
 
@@ -317,7 +349,7 @@ TEST_CASE("cases run side by side, to the same bytes, and are told in report ord
     CHECK(seen.most_inside == meet);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       CHECK(outcomes[i].id == expected[i].id);
-      CHECK(outcomes[i].record->result("sum") == expected[i].record->result("sum"));
+      CHECK(outcomes[i].record->value(sum) == expected[i].record->value(sum));
       CHECK(dem::read_file(bench.record(outcomes[i].id)) == dem::read_file(alone.record(outcomes[i].id)));
     }
     CHECK(states(bench.run()) == std::vector{kept, kept, kept});

@@ -1,9 +1,9 @@
 // The step of an assembly: forces, events, motion, account.
 #include "engine/texture/solver/lanes.h"  // first: see there
 
+#include "engine/texture/laws/parallel_bond.h"
 #include "engine/texture/solver/assembly.h"
 #include "engine/texture/solver/packs.h"
-#include "engine/texture/laws/parallel_bond.h"
 
 #include <omp.h>
 

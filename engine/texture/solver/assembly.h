@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "engine/texture/laws/flat_joint.h"
-#include "engine/texture/solver/kernels.h"
 #include "engine/texture/laws/properties.h"
+#include "engine/texture/solver/kernels.h"
 
 namespace dem::texture {
 

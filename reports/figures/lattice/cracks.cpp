@@ -145,7 +145,7 @@ struct Front {
 };
 Front front_of(const dem::Record& r) {
   const Cracks c = cracks_of(r);
-  const double d1 = r.result("failure_time_s"), d2 = d1 + r.result("crack_duration_s"), half_step = 5e-9;
+  const double d1 = r.value(quantity::failure_time), d2 = d1 + r.value(quantity::crack_duration), half_step = 5e-9;
   std::vector<std::size_t> first;
   Front f;
   double far = 0;
@@ -192,25 +192,25 @@ FigureContent crack_maps(const StudyResult& study) {
       "sliding mode.";
   std::vector<std::string> said;
   if (const dem::Record* r = main_record(study, "compression")) {
-    const double c1 = r->result("sliding_start_s"), c2 = c1 + r->result("sliding_duration_s");
+    const double c1 = r->value(quantity::sliding_start), c2 = c1 + r->value(quantity::sliding_duration);
     content.panels.push_back(
-        by_mode(*r, "compression_opening", r->result("a1_time_s") + 3e-6, "Compression, after A₁"));
+        by_mode(*r, "compression_opening", r->value(quantity::a1_time) + 3e-6, "Compression, after A₁"));
     content.panels.push_back(by_mode(*r, "compression_end", 1e9, "Compression, at the end"));
     content.panels.push_back(by_time(*r, "compression_time", c1, c2, "Compression, C₁ to C₂", oblique,
                                      "Bonds that broke at the failure, by time since C₁."));
-    said.push_back(fmt::format("in compression {} bonds opened and {} slid", count(r->result("cracks.opening")),
-                               count(r->result("cracks.sliding"))));
+    said.push_back(fmt::format("in compression {} bonds opened and {} slid", count(r->value(quantity::cracks_opening)),
+                               count(r->value(quantity::cracks_sliding))));
   }
   for (const dem::Record* r : records_of(study, "tension")) {
     const std::string planes = r->text("planes");
-    const double d1 = r->result("failure_time_s"), d2 = d1 + r->result("crack_duration_s");
+    const double d1 = r->value(quantity::failure_time), d2 = d1 + r->value(quantity::crack_duration);
     content.panels.push_back(by_time(*r, "tension_time_" + planes, d1, d2, "Tension, planes: " + planes, oblique,
                                      "Bonds that opened, by time since D₁."));
     content.panels.push_back(by_time(*r, "tension_side_" + planes, d1, d2, "Tension, planes: " + planes, along_y,
                                      "The same, seen along y."));
     content.panels.push_back(halves(*r, "tension_halves_" + planes, "Tension, planes: " + planes));
     said.push_back(fmt::format("in tension with {} planes {} bonds opened and {} slid", planes,
-                               count(r->result("cracks.opening")), count(r->result("cracks.sliding"))));
+                               count(r->value(quantity::cracks_opening)), count(r->value(quantity::cracks_sliding))));
   }
   if (!said.empty()) {
     content.finding = sentence(said);
@@ -246,7 +246,7 @@ FigureContent crack_front(const StudyResult& study) {
          .content = chart,
          .per_row = 1});
     said.push_back(fmt::format("{} planes: front {}; width over the time from first to last opening {} m/s", planes,
-                               speed_text(f.speed), number(result_or_nan(*r, "crack_speed_m_per_s"), 3)));
+                               speed_text(f.speed), number(r->value_or_nan(quantity::crack_speed), 3)));
   }
   if (!said.empty()) content.finding = sentence(said);
   return content;

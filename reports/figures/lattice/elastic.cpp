@@ -25,7 +25,8 @@ render::Chart against_strain(const std::vector<const dem::Record*>& records, con
       low = std::min(low, y);
       high = std::max(high, y);
     }
-    s = styled(s, count(records[i]->result("particles")), i, i < 5 ? render::Line::solid : render::Line::dash, 1.4);
+    s = styled(s, count(records[i]->value(quantity::particles)), i, i < 5 ? render::Line::solid : render::Line::dash,
+               1.4);
     s.marker = i % 2 ? render::Marker::square : render::Marker::circle;
     chart.series.push_back(s);
   }
@@ -48,8 +49,8 @@ MeanError mean_error(const std::vector<const dem::Record*>& records) {
   MeanError m;
   for (const dem::Record* r : records) {
     if (r->number("elements_y") < 3) continue;
-    m.e += r->result("young_modulus_error_percent");
-    m.nu += result_or_nan(*r, "poisson_ratio_error_percent");
+    m.e += r->value(quantity::young_modulus_error);
+    m.nu += r->value_or_nan(quantity::poisson_ratio_error);
     ++m.n;
   }
   if (m.n > 0) {
@@ -78,16 +79,16 @@ FigureContent elastic_constants(const StudyResult& study) {
       {.id = "young_modulus",
        .caption = "Young’s modulus by number of elements.",
        .alt = fmt::format("At the smallest strain {} GPa for {} elements and {} GPa for {}.",
-                          number(small.result("young_modulus_GPa"), 4), count(small.result("particles")),
-                          number(large.result("young_modulus_GPa"), 4), count(large.result("particles"))),
+                          number(small.value(quantity::young_modulus), 4), count(small.value(quantity::particles)),
+                          number(large.value(quantity::young_modulus), 4), count(large.value(quantity::particles))),
        .content = against_strain(records, "young_modulus", 1e-9, "Young’s modulus (GPa)", e),
        .per_row = 1});
   content.panels.push_back(
       {.id = "poisson_ratio",
        .caption = "Poisson’s ratio, mean of the two lateral directions.",
        .alt = fmt::format("At the smallest strain {} for {} elements and {} for {}.",
-                          number(small.result("poisson_ratio"), 4), count(small.result("particles")),
-                          number(large.result("poisson_ratio"), 4), count(large.result("particles"))),
+                          number(small.value(quantity::poisson_ratio), 4), count(small.value(quantity::particles)),
+                          number(large.value(quantity::poisson_ratio), 4), count(large.value(quantity::particles))),
        .content = against_strain(records, "poisson_ratio", 1, "Poisson’s ratio", nu),
        .per_row = 1});
   const MeanError error = mean_error(records);
@@ -96,12 +97,12 @@ FigureContent elastic_constants(const StudyResult& study) {
         fmt::format("Over {} blocks of more than one unit and all strains the mean error of E is {} %, that of ν {} %.",
                     error.n, number(error.e, 2), number(error.nu, 2));
   }
-  if (small.result("particles") == 4) {
+  if (small.value(quantity::particles) == 4) {
     content.finding +=
         fmt::format(" The single unit has E {} GPa and ν {} at the smallest strain, {} GPa and {} at the largest.",
-                    number(small.result("young_modulus_GPa"), 6), number(small.result("poisson_ratio"), 6),
-                    number(small.result("young_modulus_at_largest_strain_GPa"), 6),
-                    number(small.result("poisson_ratio_at_largest_strain"), 6));
+                    number(small.value(quantity::young_modulus), 6), number(small.value(quantity::poisson_ratio), 6),
+                    number(small.value(quantity::young_modulus_at_largest_strain), 6),
+                    number(small.value(quantity::poisson_ratio_at_largest_strain), 6));
   }
   return content;
 }
@@ -123,7 +124,7 @@ FigureContent elastic_choices(const StudyResult& study) {
     const double modulus = 1e-9 * t.real("young_modulus").front() * area_factor * strain_factor;
     const double n1 = t.real("poisson_ratio_1").front() * strain_factor,
                  n2 = t.real("poisson_ratio_2").front() * strain_factor;
-    table.rows.push_back({count(r.result("particles")), choice, number(modulus, 4),
+    table.rows.push_back({count(r.value(quantity::particles)), choice, number(modulus, 4),
                           with_sign(percent(modulus / e - 1, 2)),
                           number(0.5 * (n1 + n2), 4) + " (" + number(n1, 3) + ", " + number(n2, 3) + ")",
                           with_sign(percent(0.5 * (n1 + n2) / nu - 1, 1))});

@@ -46,11 +46,11 @@ struct CompressionMarks {
 CompressionMarks marks_of(const dem::Record& r) {
   const dem::Table& h = r.table("history");
   CompressionMarks m{};
-  m.a1 = r.result("a1_time_s");
+  m.a1 = r.value(quantity::a1_time);
   m.a2 = peak_time(h);
   m.a3 = time_of_least(h, elastic_columns(), m.a2);
-  m.c1 = r.result("sliding_start_s");
-  m.c2 = m.c1 + r.result("sliding_duration_s");
+  m.c1 = r.value(quantity::sliding_start);
+  m.c2 = m.c1 + r.value(quantity::sliding_duration);
   return m;
 }
 
@@ -60,8 +60,8 @@ struct TensionMarks {
 TensionMarks tension_marks(const dem::Record& r) {
   const dem::Table& h = r.table("history");
   TensionMarks m{};
-  m.d1 = r.result("failure_time_s");
-  m.d2 = m.d1 + r.result("crack_duration_s");
+  m.d1 = r.value(quantity::failure_time);
+  m.d2 = m.d1 + r.value(quantity::crack_duration);
   const render::Series kinetic = window(h, "kinetic", m.d1, 1e9, 0, 1);
   const double most = kinetic.y.empty() ? 0 : *std::ranges::max_element(kinetic.y);
   m.b2 = m.d2;
@@ -133,13 +133,13 @@ FigureContent stress_strain(const StudyResult& study) {
   mark(m.a2, "A₂");
   chart.marks.push_back({.kind = render::Mark::Kind::horizontal,
                          .x = 0,
-                         .y = r->result("opening_stress_theory_MPa"),
+                         .y = r->value(quantity::opening_stress_theory),
                          .label = "C_open (Eq. 8)",
                          .colour = {0.4, 0.4, 0.4}});
   render::Chart inset;
   inset.x.title = "Strain (10⁻³)";
   inset.left.title = "MPa";
-  const double far = 2.2 * 1e3 * r->result("a1_strain");
+  const double far = 2.2 * 1e3 * r->value(quantity::a1_strain);
   render::Series part = curve;
   part.x.clear();
   part.y.clear();
@@ -148,7 +148,7 @@ FigureContent stress_strain(const StudyResult& study) {
     part.y.push_back(curve.y[i]);
   }
   inset.series = {part};
-  inset.marks.push_back(dot(1e3 * r->result("a1_strain"), r->result("a1_MPa"), "A₁"));
+  inset.marks.push_back(dot(1e3 * r->value(quantity::a1_strain), r->value(quantity::a1_stress), "A₁"));
   inset.legend = render::Chart::Legend::none;
   chart.insets.push_back({{inset}, {0.60, 0.13, 0.36, 0.28}});
   chart.legend = render::Chart::Legend::none;
@@ -156,18 +156,21 @@ FigureContent stress_strain(const StudyResult& study) {
   chart.height = 480;
   content.panels.push_back(
       {.id = "",
-       .caption = count(r->result("particles")) + " elements in compression; the inset enlarges the first opening.",
-       .alt = fmt::format("A1 at {} MPa falls to {}; the peak A2 is {} MPa at a strain of {}.",
-                          number(r->result("a1_MPa"), 3), number(r->result("a1_after_MPa"), 3),
-                          number(r->result("ucs_MPa"), 4), number(r->result("peak_strain"), 3)),
+       .caption =
+           count(r->value(quantity::particles)) + " elements in compression; the inset enlarges the first opening.",
+       .alt =
+           fmt::format("A1 at {} MPa falls to {}; the peak A2 is {} MPa at a strain of {}.",
+                       number(r->value(quantity::a1_stress), 3), number(r->value(quantity::a1_stress_after), 3),
+                       number(r->value(quantity::compressive_strength), 4), number(r->value(quantity::peak_strain), 3)),
        .content = chart,
        .per_row = 1});
   content.finding = fmt::format(
       "Bonds open first at {} MPa, at the boundary; the largest opening, A₁, is at {} MPa and lets stress drop to {} "
       "MPa. "
       "Bonds slide first at {} MPa; the strength A₂ is {} MPa at a strain of {}.",
-      number(r->result("first_opening_MPa"), 3), number(r->result("a1_MPa"), 3), number(r->result("a1_after_MPa"), 3),
-      number(r->result("first_sliding_MPa"), 4), number(r->result("ucs_MPa"), 4), number(r->result("peak_strain"), 3));
+      number(r->value(quantity::first_opening), 3), number(r->value(quantity::a1_stress), 3),
+      number(r->value(quantity::a1_stress_after), 3), number(r->value(quantity::first_sliding), 4),
+      number(r->value(quantity::compressive_strength), 4), number(r->value(quantity::peak_strain), 3));
   return content;
 }
 
@@ -212,8 +215,8 @@ FigureContent energy_compression(const StudyResult& study) {
       "After A₂ the elastic energy falls to {} % of its value there, in {} µs from C₁; kinetic energy never exceeds {} "
       "% of it. "
       "The ledger closes to {} of the work.",
-      number(100 * r->result("elastic_left_share"), 2), number(1e6 * (m.a3 - m.c1), 3),
-      number(100 * r->result("kinetic_share"), 2), number(r->result("energy_residual"), 2));
+      number(100 * r->value(quantity::elastic_left_share), 2), number(1e6 * (m.a3 - m.c1), 3),
+      number(100 * r->value(quantity::kinetic_share), 2), number(r->value(quantity::energy_residual), 2));
   return content;
 }
 
@@ -250,11 +253,11 @@ FigureContent energy_tension(const StudyResult& study) {
     content.panels.push_back({.id = planes,
                               .caption = fmt::format("Tension, planes: {}. The inset shows the failure.", planes),
                               .alt = fmt::format("The block parts at {} s; kinetic energy reaches {} % of the work.",
-                                                 number(m.d1, 4), number(100 * r->result("kinetic_share"), 3)),
+                                                 number(m.d1, 4), number(100 * r->value(quantity::kinetic_share), 3)),
                               .content = chart,
                               .per_row = 1});
     said.push_back(fmt::format("with {} planes it parts at {} s, kinetic share {} %", planes, number(m.d1, 4),
-                               number(100 * r->result("kinetic_share"), 3)));
+                               number(100 * r->value(quantity::kinetic_share), 3)));
   }
   if (!said.empty()) content.finding = sentence(said);
   return content;
@@ -274,16 +277,17 @@ FigureContent heat_compression(const StudyResult& study) {
       {.id = "",
        .caption = "Compression: heat at failure.",
        .alt = fmt::format("From C1 to C2 {} µs pass; {} % of the breaking heat in between is of normal springs.",
-                          number(1e6 * (m.c2 - m.c1), 3), number(100 * r->result("normal_share_of_sliding_heat"), 2)),
+                          number(1e6 * (m.c2 - m.c1), 3),
+                          number(100 * r->value(quantity::normal_share_of_sliding_heat), 2)),
        .content = heats(*r, m.c1 - 0.3 * span, m.c2 + 1.5 * span, m.c1, {{m.c1, "C₁"}, {m.c2, "C₂"}}),
        .per_row = 1});
   content.finding = fmt::format(
       "From C₁ to C₂ {} µs pass. Normal springs have {} % of the breaking heat of that time. {} % of all frictional "
       "heat comes after C₂; "
       "{} % of the heat from C₁ to the end is viscous.",
-      number(1e6 * (m.c2 - m.c1), 3), number(100 * r->result("normal_share_of_sliding_heat"), 2),
-      number(100 * r->result("frictional_share_after_sliding"), 3),
-      number(100 * r->result("viscous_share_of_heat"), 3));
+      number(1e6 * (m.c2 - m.c1), 3), number(100 * r->value(quantity::normal_share_of_sliding_heat), 2),
+      number(100 * r->value(quantity::frictional_share_after_sliding), 3),
+      number(100 * r->value(quantity::viscous_share_of_heat), 3));
   return content;
 }
 
@@ -304,17 +308,17 @@ FigureContent heat_tension(const StudyResult& study) {
          .alt = fmt::format("Breaking heat rises for {} µs.", number(1e6 * (m.d2 - m.d1), 3)),
          .content = heats(*r, m.d1 - 0.3 * span, m.d2 + 2.5 * span, m.d1, {{m.d1, "D₁"}, {m.d2, "D₂"}}),
          .per_row = 1});
-    std::string friction = r->has_result("friction_after_last_opening_s")
+    std::string friction = r->has(quantity::friction_after_last_opening)
                                ? fmt::format(
                                      "frictional heat begins {} µs {} the last of them and ends at {} % of the work, "
                                      "where cracks close again",
-                                     number(1e6 * std::abs(r->result("friction_after_last_opening_s")), 3),
-                                     r->result("friction_after_last_opening_s") < 0 ? "before" : "after",
-                                     number(100 * r->result("frictional_share"), 2))
+                                     number(1e6 * std::abs(r->value(quantity::friction_after_last_opening)), 3),
+                                     r->value(quantity::friction_after_last_opening) < 0 ? "before" : "after",
+                                     number(100 * r->value(quantity::frictional_share), 2))
                                : std::string("no frictional heat at any time");
     said.push_back(fmt::format("{} planes: bonds open for {} µs, {} % of the viscous heat comes later; {}", planes,
                                number(1e6 * (m.d2 - m.d1), 3),
-                               number(100 * r->result("viscous_share_after_parting"), 3), friction));
+                               number(100 * r->value(quantity::viscous_share_after_parting), 3), friction));
   }
   if (!said.empty()) content.finding = sentence(said);
   return content;
@@ -332,7 +336,7 @@ FigureContent ledger(const StudyResult& study) {
   for (const std::string_view test : {"compression", "tension"}) {
     const auto records = records_of(study, test);
     for (const dem::Record* r : records) {
-      worst = std::max(worst, r->result("energy_residual"));
+      worst = std::max(worst, r->value(quantity::energy_residual));
       if (colour >= 7) continue;
       const dem::Table& h = r->table("history");
       const auto time = h.real("time"), work = h.real("work"), residual = h.real("residual");

@@ -23,8 +23,8 @@ const dem::Record* any_record(const StudyResult& study) {
 const dem::Record* largest_record(const StudyResult& study, double most) {
   const dem::Record* found = nullptr;
   for (const CaseResult& c : study.cases) {
-    if (!c.record || c.record->result("particles") > most) continue;
-    if (!found || c.record->result("particles") > found->result("particles")) found = c.record;
+    if (!c.record || c.record->value(quantity::particles) > most) continue;
+    if (!found || c.record->value(quantity::particles) > found->value(quantity::particles)) found = c.record;
   }
   return found;
 }
@@ -50,7 +50,7 @@ Picture block_picture(const dem::Record& record) {
   picture.scene.camera.direction = {-0.75, 0.55, -0.30};
   picture.scene.width = 700;
   picture.scene.height = 700;
-  picture.label = count(record.result("particles")) + " elements";
+  picture.label = count(record.value(quantity::particles)) + " elements";
   picture.legend = {{{0.55, 0.66, 0.75}, "layers A"},
                     {{0.93, 0.86, 0.62}, "layers B"},
                     {{0.80, 0.36, 0.20}, "end layers, at the planes"}};
@@ -163,7 +163,7 @@ FigureContent block(const StudyResult& study) {
   content.panels.push_back(
       {.id = "block",
        .caption = "The block, layers A and B in turn.",
-       .alt = count(record->result("particles")) + " spheres in a nearly cubic block of close-packed layers.",
+       .alt = count(record->value(quantity::particles)) + " spheres in a nearly cubic block of close-packed layers.",
        .content = block_picture(*record),
        .per_row = 2});
   content.panels.push_back(
@@ -172,8 +172,8 @@ FigureContent block(const StudyResult& study) {
        .alt = "Two pairs of spheres, one joined by a normal spring, one by a shear spring.",
        .content = springs_drawing(),
        .per_row = 2});
-  content.finding = fmt::format("The block shown has {} elements and {} bonds.", count(record->result("particles")),
-                                count(record->result("contacts")));
+  content.finding = fmt::format("The block shown has {} elements and {} bonds.",
+                                count(record->value(quantity::particles)), count(record->value(quantity::contacts)));
   return content;
 }
 
@@ -219,19 +219,20 @@ FigureContent parameters(const StudyResult& study) {
   TextTable table{{"Property of the rock", "Value", "Parameter of elements", "Value"}, {}};
   table.rows = {
       row("Young’s modulus E", number(1e-9 * s.real("rock.young_modulus"), 4) + " GPa", "Normal stiffness Kₙ",
-          number(1e-6 * r->result("normal_stiffness_N_per_m"), 5) + " × 10⁶ N/m"),
+          number(1e-6 * r->value(quantity::normal_stiffness), 5) + " × 10⁶ N/m"),
       row("Poisson’s ratio ν", number(s.real("rock.poisson_ratio"), 4), "Shear stiffness Kₛ",
-          number(1e-6 * r->result("shear_stiffness_N_per_m"), 4) + " × 10⁶ N/m"),
+          number(1e-6 * r->value(quantity::shear_stiffness), 4) + " × 10⁶ N/m"),
       row("Tensile strength Tᵤ", number(1e-6 * s.real("rock.tensile_strength"), 4) + " MPa",
-          "Breaking displacement X_b", number(1e7 * r->result("breaking_displacement_m"), 4) + " × 10⁻⁷ m"),
+          "Breaking displacement X_b", number(1e7 * r->value(quantity::breaking_displacement), 4) + " × 10⁻⁷ m"),
       row("Compressive strength Cᵤ", number(1e-6 * s.real("rock.compressive_strength"), 4) + " MPa",
-          "Initial shear resistance Fₛ₀", number(r->result("initial_shear_resistance_N"), 5) + " N"),
+          "Initial shear resistance Fₛ₀", number(r->value(quantity::initial_shear_resistance), 5) + " N"),
       row("Internal friction μᵢ", number(s.real("rock.internal_friction"), 4), "Friction of a contact μₚ",
-          number(r->result("contact_friction"), 4)),
+          number(r->value(quantity::contact_friction), 4)),
       row("Density ρ", number(s.real("rock.density"), 4) + " kg/m³", "Mass of an element m",
-          number(1e6 * r->result("element_mass_kg"), 4) + " × 10⁻⁶ kg"),
+          number(1e6 * r->value(quantity::element_mass), 4) + " × 10⁻⁶ kg"),
       row("Element diameter d", number(1e3 * s.real("block.element_diameter"), 4) + " mm",
-          "First opening in compression C_open (Eq. 8)", number(r->result("opening_stress_theory_MPa"), 4) + " MPa")};
+          "First opening in compression C_open (Eq. 8)",
+          number(r->value(quantity::opening_stress_theory), 4) + " MPa")};
   content.panels.push_back({.id = "",
                             .caption = "Properties of the rock, and the parameters made of them.",
                             .alt = "",
@@ -239,15 +240,15 @@ FigureContent parameters(const StudyResult& study) {
                             .per_row = 1});
   double worst = 0;
   bool known = true;
-  for (const auto& [name, id, unit] : {std::tuple{"normal_stiffness_N_per_m", "strength_kn", 1e6},
-                                       {"shear_stiffness_N_per_m", "strength_ks", 1e6},
-                                       {"breaking_displacement_m", "strength_xb", 1e-7},
-                                       {"initial_shear_resistance_N", "strength_fs0", 1.0},
-                                       {"contact_friction", "strength_mup", 1.0},
-                                       {"element_mass_kg", "element_mass", 1e-6}}) {
+  for (const auto& [of, id, unit] : {std::tuple{quantity::normal_stiffness, "strength_kn", 1e6},
+                                     {quantity::shear_stiffness, "strength_ks", 1e6},
+                                     {quantity::breaking_displacement, "strength_xb", 1e-7},
+                                     {quantity::initial_shear_resistance, "strength_fs0", 1.0},
+                                     {quantity::contact_friction, "strength_mup", 1.0},
+                                     {quantity::element_mass, "element_mass", 1e-6}}) {
     const double published = unit * study.published_value(id);
     known = known && std::isfinite(published);
-    worst = std::max(worst, std::abs(r->result(name) / published - 1));
+    worst = std::max(worst, std::abs(r->value(of) / published - 1));
   }
   if (known) content.finding = "The largest deviation from the six published parameters is " + percent(worst, 3) + ".";
   return content;

@@ -12,11 +12,9 @@
 namespace reports::lattice {
 namespace {
 
-bool same_choices(const dem::Record& a, const dem::Record& b, bool any_factor) {
-  return std::ranges::all_of(a.parameters, [&](const auto& mine) {
-    if (mine.first == "elements_y" || (any_factor && mine.first == "factor")) return true;
-    return std::ranges::find(b.parameters, mine) != b.parameters.end();
-  });
+bool same_choices(const dem::Record& a, const dem::Record& b) {
+  constexpr std::array but{parameter::elements_y.id, parameter::factor.id};
+  return analysis::alike(a.parameters, b.parameters, but);
 }
 
 }  // namespace
@@ -39,7 +37,7 @@ std::vector<const dem::Record*> by_size(const StudyResult& study, std::string_vi
   for (const dem::Record* r : records_of(study, test)) {
     const bool repeated = std::ranges::any_of(
         found, [&](const dem::Record* f) { return f->number("elements_y") == r->number("elements_y"); });
-    if (!repeated && same_choices(*r, *records_of(study, test).front(), true)) found.push_back(r);
+    if (!repeated && same_choices(*r, *records_of(study, test).front())) found.push_back(r);
   }
   std::ranges::stable_sort(found, {}, [](const dem::Record* r) { return r->number("elements_y"); });
   return found;

@@ -4,9 +4,13 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/lattice/quantities.h"
 #include "reports/figures/parts.h"
 
 namespace reports::lattice {
+
+namespace parameter = dem::lattice::parameter;
+namespace quantity = dem::lattice::quantity;
 
 /// The first record of a test, that of the scenario's own choices; nullptr when there is none.
 const dem::Record* main_record(const StudyResult& study, std::string_view test);

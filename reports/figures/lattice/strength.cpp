@@ -12,18 +12,20 @@ namespace reports::lattice {
 namespace {
 
 struct Test {
-  std::string_view name, result, error, title;
+  std::string_view name;
+  dem::Quantity result, error;
+  std::string_view title;
   std::string_view published_single, published_mean;  // errors (%), by id
 };
 constexpr Test tension{"tension",
-                       "tensile_strength_MPa",
-                       "tensile_error_percent",
+                       quantity::tensile_strength,
+                       quantity::tensile_strength_error,
                        "Tensile strength Tᵤ (MPa)",
                        "unit_tensile_strength",
                        "mean_tensile_strength"};
 constexpr Test compression{"compression",
-                           "ucs_MPa",
-                           "ucs_error_percent",
+                           quantity::compressive_strength,
+                           quantity::compressive_strength_error,
                            "Compressive strength Cᵤ (MPa)",
                            "unit_compressive_strength",
                            "mean_compressive_strength"};
@@ -46,9 +48,9 @@ render::Chart against_size(const StudyResult& study, const Test& test) {
   const double mean = rock * (1 + study.published_value(test.published_mean) / 100);
   double low = std::isfinite(mean) ? mean : rock, high = rock;
   for (const dem::Record* r : records) {
-    if (!std::isfinite(r->result(test.result))) continue;
-    line.x.push_back(r->result("particles"));
-    line.y.push_back(r->result(test.result));
+    if (!std::isfinite(r->value(test.result))) continue;
+    line.x.push_back(r->value(quantity::particles));
+    line.y.push_back(r->value(test.result));
   }
   line = styled(line, "this study", 0);
   line.marker = render::Marker::circle;
@@ -60,8 +62,8 @@ render::Chart against_size(const StudyResult& study, const Test& test) {
     render::Series other;
     for (const dem::Record* r : records_of(study, test.name)) {
       if (r->text("planes") != planes || r->text("direction") != main->text("direction")) continue;
-      other.x.push_back(r->result("particles"));
-      other.y.push_back(r->result(test.result));
+      other.x.push_back(r->value(quantity::particles));
+      other.y.push_back(r->value(test.result));
     }
     if (other.x.empty()) continue;
     other = styled(other, fmt::format("planes: {}", planes), colour++, render::Line::none);
@@ -101,8 +103,8 @@ double mean_of_blocks(const StudyResult& study, const Test& test, int& n) {
   double sum = 0;
   n = 0;
   for (const dem::Record* r : by_size(study, test.name)) {
-    if (r->number("elements_y") < 3 || !std::isfinite(r->result(test.error))) continue;
-    sum += r->result(test.error);
+    if (r->number("elements_y") < 3 || !std::isfinite(r->value(test.error))) continue;
+    sum += r->value(test.error);
     ++n;
   }
   return n > 0 ? sum / n : std::nan("");
@@ -127,7 +129,7 @@ std::string unfailed(const dem::Record& r, const Test& test, double drop) {
       "In {} along {} the block of {} elements falls first at {} MPa and then does not fail: at a strain of {} % it "
       "carries {} "
       "MPa. ",
-      test.name, r.text("direction"), count(r.result("particles")), number(1e-6 * drop, 3),
+      test.name, r.text("direction"), count(r.value(quantity::particles)), number(1e-6 * drop, 3),
       number(100 * h.real("axial_strain").back(), 2), number(1e-6 * std::ranges::max(h.real("axial_stress")), 3));
 }
 
@@ -145,24 +147,25 @@ FigureContent block_strengths(const StudyResult& study) {
     if (records.empty()) continue;
     int n = 0;
     const double mean = mean_of_blocks(study, test, n);
-    content.panels.push_back(
-        {.id = std::string(test.name),
-         .caption = std::string(test.title) + " by number of elements.",
-         .alt =
-             fmt::format("From {} MPa for {} elements to {} MPa for {}.",
-                         number(records.front()->result(test.result), 4), count(records.front()->result("particles")),
-                         number(records.back()->result(test.result), 4), count(records.back()->result("particles"))),
-         .content = against_size(study, test),
-         .per_row = 1});
-    if (records.front()->result("particles") == 4) {
+    content.panels.push_back({.id = std::string(test.name),
+                              .caption = std::string(test.title) + " by number of elements.",
+                              .alt = fmt::format("From {} MPa for {} elements to {} MPa for {}.",
+                                                 number(records.front()->value(test.result), 4),
+                                                 count(records.front()->value(quantity::particles)),
+                                                 number(records.back()->value(test.result), 4),
+                                                 count(records.back()->value(quantity::particles))),
+                              .content = against_size(study, test),
+                              .per_row = 1});
+    if (records.front()->value(quantity::particles) == 4) {
       content.finding += fmt::format("Single unit in {}: {} %{}. ", test.name,
-                                     with_sign(number(records.front()->result(test.error), 3)),
+                                     with_sign(number(records.front()->value(test.error), 3)),
                                      published_words(study.published_value(test.published_single), 3));
     }
     std::vector<std::string> larger;
     for (const dem::Record* r : records) {
       const double factor = r->number("factor") / records.front()->number("factor");
-      if (factor != 1) larger.push_back(fmt::format("{} (× {})", count(r->result("particles")), number(factor, 3)));
+      if (factor != 1)
+        larger.push_back(fmt::format("{} (× {})", count(r->value(quantity::particles)), number(factor, 3)));
     }
     if (!larger.empty())
       content.finding += fmt::format("With larger loading steps in {}: {}. ", test.name, joined(larger, ", "));
@@ -189,27 +192,27 @@ FigureContent strength_choices(const StudyResult& study) {
     std::vector<double> sizes;
     const dem::Record* best = nullptr;
     const double published = study.published_value(test.published_mean);
-    const auto away = [&](const dem::Record& r) { return std::abs(r.result(test.error) - published); };
+    const auto away = [&](const dem::Record& r) { return std::abs(r.value(test.error) - published); };
     for (const dem::Record* r : records_of(study, test.name)) {
       if (choice_words(*r, *main) != "as the series") sizes.push_back(r->number("elements_y"));
     }
     for (const dem::Record* r : records_of(study, test.name)) {
       if (std::ranges::find(sizes, r->number("elements_y")) == sizes.end()) continue;
-      const bool failed = std::isfinite(r->result(test.result));
+      const bool failed = std::isfinite(r->value(test.result));
       const double drop = first_drop(r->table("history"));
       if (!failed) content.finding += unfailed(*r, test, drop);
       const bool same_load = r->text("direction") == main->text("direction");
       if (failed && same_load && (!best || away(*r) < away(*best))) best = r;
-      table.rows.push_back({std::string(test.name), count(r->result("particles")), choice_words(*r, *main),
-                            failed ? number(r->result(test.result), 4) : "not reached",
-                            failed ? with_sign(number(r->result(test.error), 3)) + " %" : "–",
+      table.rows.push_back({std::string(test.name), count(r->value(quantity::particles)), choice_words(*r, *main),
+                            failed ? number(r->value(test.result), 4) : "not reached",
+                            failed ? with_sign(number(r->value(test.error), 3)) + " %" : "–",
                             std::isfinite(drop) ? number(1e-6 * drop, 4) : "–",
-                            number(r->result("energy_residual"), 2)});
+                            number(r->value(quantity::energy_residual), 2)});
     }
     if (best && std::isfinite(published)) {
       nearest.push_back(fmt::format("in {} {} ({} elements, {} %, published {} %)", test.name,
-                                    choice_words(*best, *main), count(best->result("particles")),
-                                    with_sign(number(best->result(test.error), 3)), number(published, 4)));
+                                    choice_words(*best, *main), count(best->value(quantity::particles)),
+                                    with_sign(number(best->value(test.error), 3)), number(published, 4)));
     }
   }
   std::ranges::stable_sort(table.rows, [](const auto& a, const auto& b) { return a[0] > b[0]; });

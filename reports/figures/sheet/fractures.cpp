@@ -129,13 +129,14 @@ FigureContent fracture_maps(const StudyResult& study) {
             "tension.";
   for (const double strain : strains_of(*r))
     content.panels.push_back(map_panel(study, *r, strain, layered(*r) ? 1 : 2));
-  if (!r->has_result("onset_strain")) {
+  if (!r->has(quantity::onset_strain)) {
     content.finding = "No spring broke.";
     return content;
   }
-  content.finding = fmt::format("{} springs broke, {} of them between grains; the first at a strain of {}.",
-                                count(r->result("cracks.intra_tension") + r->result("cracks.inter_tension")),
-                                percent(between_share(*r), 0), strain_words(result_or_nan(*r, "onset_strain")));
+  content.finding =
+      fmt::format("{} springs broke, {} of them between grains; the first at a strain of {}.",
+                  count(r->value(quantity::cracks_intra_tension) + r->value(quantity::cracks_inter_tension)),
+                  percent(between_share(*r), 0), strain_words(r->value_or_nan(quantity::onset_strain)));
   return content;
 }
 
@@ -143,12 +144,12 @@ FigureContent rose_of_fractures(const StudyResult& study) {
   FigureContent content;
   std::vector<std::string> said;
   for (const dem::Record* r : records_of(study)) {
-    if (r->text("solver") != "converged" || !r->has_result("along_compression_share")) continue;
+    if (r->text("solver") != "converged" || !r->has(quantity::along_compression_share)) continue;
     if (r->text("test") == "pure_shear")
       content.statement = "Fractures in the polycrystal run parallel to the compression.";
     const auto angles = trends_of(*r);
     if (angles.empty()) continue;
-    const double share = result_or_nan(*r, "along_compression_share");
+    const double share = r->value_or_nan(quantity::along_compression_share);
     const std::string label = label_of(*r, study);
     content.panels.push_back(
         {.id = r->case_id,
@@ -201,7 +202,7 @@ FigureContent radial_fractures(const StudyResult& study) {
   chart.legend = render::Chart::Legend::none;
   chart.width = 620;
   chart.height = 380;
-  const double share = result_or_nan(*r, "radial_share");
+  const double share = r->value_or_nan(quantity::radial_share);
   content.panels.push_back(
       {.id = "",
        .caption = "Trend of fractures against the line to the centre of the nearest growing grain.",
@@ -217,7 +218,7 @@ FigureContent spacing(const StudyResult& study) {
   FigureContent content;
   const dem::Record* r = main_record(study);
   if (!r || !r->table("history").has("crossing_fractures")) return content;
-  if (r->text("test") == "compression" && result_or_nan(*r, "crossing_fractures") < 1) {
+  if (r->text("test") == "compression" && r->value_or_nan(quantity::crossing_fractures) < 1) {
     content.panels.push_back(
         note_panel("", "Spacing of fractures through the layer.", "No fracture crosses the layer in this run."));
     return content;
@@ -246,7 +247,7 @@ FigureContent spacing(const StudyResult& study) {
   chart.legend = render::Chart::Legend::below;
   chart.width = 640;
   chart.height = 420;
-  const double last = result_or_nan(*r, "crossing_fractures");
+  const double last = r->value_or_nan(quantity::crossing_fractures);
   content.panels.push_back(
       {.id = "",
        .caption = "Fractures that reach across four fifths of the layer's rows or more, and their mean spacing.",
@@ -254,15 +255,15 @@ FigureContent spacing(const StudyResult& study) {
        .content = chart,
        .per_row = 1});
   content.finding = fmt::format("{} fractures cross the layer at a strain of {}", count(last),
-                                strain_words(r->result("final_strain")));
-  if (r->has_result("spacing_over_thickness")) {
-    content.finding +=
-        fmt::format("; their mean spacing is {} layer thicknesses", number(r->result("spacing_over_thickness"), 3));
+                                strain_words(r->value(quantity::final_strain)));
+  if (r->has(quantity::spacing_over_thickness)) {
+    content.finding += fmt::format("; their mean spacing is {} layer thicknesses",
+                                   number(r->value(quantity::spacing_over_thickness), 3));
   }
-  if (r->has_result("spacing_scatter")) {
-    content.finding +=
-        fmt::format(", with a scatter of {} of it (as many fractures placed at random: {})",
-                    percent(r->result("spacing_scatter"), 0), percent(r->result("spacing_scatter_chance"), 0));
+  if (r->has(quantity::spacing_scatter)) {
+    content.finding += fmt::format(", with a scatter of {} of it (as many fractures placed at random: {})",
+                                   percent(r->value(quantity::spacing_scatter), 0),
+                                   percent(r->value(quantity::spacing_scatter_chance), 0));
   }
   content.finding += ".";
   return content;

@@ -87,9 +87,9 @@ FigureContent neighbours(const StudyResult& study) {
                             .alt = "A patch of 25 discs in rows; one is joined to six neighbours by springs.",
                             .content = d.finish(),
                             .per_row = 2});
-  content.finding =
-      fmt::format("This sheet has {} particles in {} rows of {}, joined by {} springs.", count(r->result("particles")),
-                  count(l.rows), count(l.columns), count(r->result("contacts")));
+  content.finding = fmt::format("This sheet has {} particles in {} rows of {}, joined by {} springs.",
+                                count(r->value(quantity::particles)), count(l.rows), count(l.columns),
+                                count(r->value(quantity::contacts)));
   return content;
 }
 
@@ -134,7 +134,7 @@ FigureContent box(const StudyResult& study) {
   content.panels.push_back({.id = "whole",
                             .caption = "The deformation box: particles coloured by grain, walls brown.",
                             .alt = fmt::format("A square of {} discs in {} grains within a brown frame.",
-                                               count(r->result("particles")), count(r->result("grains"))),
+                                               count(r->value(quantity::particles)), count(r->value(quantity::grains))),
                             .content = whole,
                             .per_row = 2});
   return content;
@@ -198,9 +198,10 @@ FigureContent flow(const StudyResult& study) {
                   body + "</svg>",
        .per_row = 1});
   if (r) {
-    content.finding = fmt::format("This run: {} load steps, {} relaxations, {} broken springs.",
-                                  count(r->result("load_steps")), count(r->result("solver.relaxations")),
-                                  count(r->result("cracks.intra_tension") + r->result("cracks.inter_tension")));
+    content.finding =
+        fmt::format("This run: {} load steps, {} relaxations, {} broken springs.",
+                    count(r->value(quantity::load_steps)), count(r->value(quantity::relaxations)),
+                    count(r->value(quantity::cracks_intra_tension) + r->value(quantity::cracks_inter_tension)));
   }
   return content;
 }
@@ -231,8 +232,8 @@ FigureContent elle_layer(const StudyResult& study) {
                             .alt = "Polygon edges with nodes cross a patch of discs that are coloured by grain.",
                             .content = d.finish(),
                             .per_row = 1});
-  content.finding =
-      fmt::format("{} grains hold {} particles.", count(r->result("grains")), count(r->result("particles")));
+  content.finding = fmt::format("{} grains hold {} particles.", count(r->value(quantity::grains)),
+                                count(r->value(quantity::particles)));
   return content;
 }
 

@@ -56,8 +56,8 @@ std::string label_of(const dem::Record& record, const StudyResult& study) {
 
 // From the counts, which records made before the result had its present name hold as well.
 double between_share(const dem::Record& record) {
-  const double between = record.result("cracks.inter_tension");
-  return between / (between + record.result("cracks.intra_tension"));
+  const double between = record.value(quantity::cracks_inter_tension);
+  return between / (between + record.value(quantity::cracks_intra_tension));
 }
 
 Layout layout_of(const dem::Record& record) {

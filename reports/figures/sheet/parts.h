@@ -4,9 +4,13 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/sheet/quantities.h"
 #include "reports/figures/parts.h"
 
 namespace reports::sheet {
+
+namespace parameter = dem::sheet::parameter;
+namespace quantity = dem::sheet::quantity;
 
 /// All records of the study, in report order; the first is the scenario's own.
 std::vector<const dem::Record*> records_of(const StudyResult& study);

@@ -135,21 +135,21 @@ FigureContent stress_strain(const StudyResult& study) {
          .caption = fmt::format("{}: stress on the walls (tension positive), before and after the breaks of each step.",
                                 label == "this run" ? "Response" : "Response, " + label),
          .alt = fmt::format("Largest differential stress {} at {} %.",
-                            number(r->result("peak_differential_stress_dimensionless"), 3),
-                            number(100 * r->result("strain_at_peak"), 3)),
+                            number(r->value(quantity::peak_differential_stress), 3),
+                            number(100 * r->value(quantity::strain_at_peak), 3)),
          .content = stress_chart(*r),
          .per_row = 2});
     const std::string start = label == "this run" ? std::string() : label + ": ";
-    if (!r->has_result("onset_strain")) {
+    if (!r->has(quantity::onset_strain)) {
       said.push_back(start + "no spring broke");
       continue;
     }
-    std::string words =
-        fmt::format("{}first break at {} %; the worst step breaks {} of the springs", start,
-                    number(100 * r->result("onset_strain"), 3), percent(result_or_nan(*r, "worst_step_share"), 0));
-    if (result_or_nan(*r, "largest_drop_share") > 0) {
-      words +=
-          fmt::format(" and takes {} of the largest tension on the walls", percent(r->result("largest_drop_share"), 0));
+    std::string words = fmt::format("{}first break at {} %; the worst step breaks {} of the springs", start,
+                                    number(100 * r->value(quantity::onset_strain), 3),
+                                    percent(r->value_or_nan(quantity::worst_step_share), 0));
+    if (r->value_or_nan(quantity::largest_drop_share) > 0) {
+      words += fmt::format(" and takes {} of the largest tension on the walls",
+                           percent(r->value(quantity::largest_drop_share), 0));
     }
     said.push_back(words);
   }
@@ -189,7 +189,7 @@ FigureContent energy(const StudyResult& study) {
     chart.legend = render::Chart::Legend::top_left;
     chart.width = 560;
     chart.height = 400;
-    const double residual = r->result("energy_residual");
+    const double residual = r->value(quantity::energy_residual);
     const std::string label = label_of(*r, study);
     content.panels.push_back(
         {.id = r->case_id,
@@ -240,20 +240,20 @@ FigureContent solvers(const StudyResult& study) {
     return content;
   }
   TextTable table{{"", "converged", "as published"}, {}};
-  const auto row = [&](const char* words, const char* key, auto text) {
-    table.rows.push_back({words, text(result_or_nan(*ours, key)), text(result_or_nan(*theirs, key))});
+  const auto row = [&](const char* words, const dem::Quantity& of, auto text) {
+    table.rows.push_back({words, text(ours->value_or_nan(of)), text(theirs->value_or_nan(of))});
   };
   const auto broken = [](const dem::Record& r) {
-    return count(r.result("cracks.intra_tension") + r.result("cracks.inter_tension"));
+    return count(r.value(quantity::cracks_intra_tension) + r.value(quantity::cracks_inter_tension));
   };
   table.rows.push_back({"Broken springs", broken(*ours), broken(*theirs)});
-  row("Strain at the first break (%)", "onset_strain", [](double v) { return number(100 * v, 3); });
-  row("Peak differential stress (k)", "peak_differential_stress_dimensionless", [](double v) { return number(v, 4); });
-  row("Strain at the peak (%)", "strain_at_peak", [](double v) { return number(100 * v, 3); });
+  row("Strain at the first break (%)", quantity::onset_strain, [](double v) { return number(100 * v, 3); });
+  row("Peak differential stress (k)", quantity::peak_differential_stress, [](double v) { return number(v, 4); });
+  row("Strain at the peak (%)", quantity::strain_at_peak, [](double v) { return number(100 * v, 3); });
   table.rows.push_back({"Share between grains", percent(between_share(*ours), 1), percent(between_share(*theirs), 1)});
-  row("Largest unbalanced over largest spring force", "unbalanced_force_dimensionless",
+  row("Largest unbalanced over largest spring force", quantity::unbalanced_force,
       [](double v) { return number(v, 2); });
-  row("Energy unaccounted for, share of the work", "energy_residual", [](double v) { return number(v, 2); });
+  row("Energy unaccounted for, share of the work", quantity::energy_residual, [](double v) { return number(v, 2); });
   // How long the two orders of breaking agree.
   const auto a = ours->table("cracks").real("position"), b = theirs->table("cracks").real("position");
   std::size_t same = 0;
@@ -271,7 +271,7 @@ FigureContent solvers(const StudyResult& study) {
       {"Springs broken in both", count(static_cast<double>(shared)), count(static_cast<double>(shared))});
   content.panels.push_back(
       {.id = "numbers", .caption = "One sheet, two solvers.", .alt = "", .content = table, .per_row = 1});
-  const double strain = std::min(ours->result("final_strain"), theirs->result("final_strain"));
+  const double strain = std::min(ours->value(quantity::final_strain), theirs->value(quantity::final_strain));
   for (const dem::Record* r : {ours, theirs}) {
     const auto n = crack_counts(*r, strain);
     content.panels.push_back(

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "reports/after_peak.h"
-#include "reports/envelopes.h"
+#include "engine/analysis/envelopes.h"
+#include "engine/analysis/softening.h"
 #include "reports/figures/table.h"
 #include "reports/figures/texture/parts.h"
 #include "reports/page/text.h"
@@ -21,19 +21,17 @@ constexpr int half_width = 440, curves_height = 380;
 const render::Colour peak_colour = render::palette(0), damage_colour = render::palette(1),
                      initiation_colour = render::palette(2), strain_colour = render::palette(3);
 
-double peak_stress(const dem::Record& record) {
-  return record.has_result("ucs_MPa") ? record.result("ucs_MPa") : result_or_nan(record, "confined_strength_MPa");
-}
+double peak_stress(const dem::Record& record) { return record.value_or_nan(quantity::compressive_strength); }
 
 std::vector<SeriesCase> confined(const StudyResult& study) {
-  return series_of(of_mineral(study, ""), test_compression, confining_axis);
+  return series_of(of_mineral(study, ""), test_compression, parameter::confining_pressure);
 }
 
 std::vector<double> tensile_strengths(const StudyResult& study) {
   std::vector<double> values;
-  for (const SeriesCase& item : series_of(of_mineral(study, ""), test_tension, confining_axis)) {
+  for (const SeriesCase& item : series_of(of_mineral(study, ""), test_tension, parameter::confining_pressure)) {
     for (const dem::Record* record : item.repeats) {
-      const double ts = result_or_nan(*record, "tensile_strength_MPa");
+      const double ts = record->value_or_nan(quantity::tensile_strength);
       if (std::isfinite(ts)) values.push_back(ts);
     }
   }
@@ -44,7 +42,7 @@ std::vector<double> tensile_strengths(const StudyResult& study) {
 double small_strain(const std::vector<SeriesCase>& cases) {
   double reach = 0.15;
   for (const SeriesCase& item : cases) {
-    const double strain = 100 * result_or_nan(*item.record, "crack_initiation_strain.axial_stiffness");
+    const double strain = 100 * item.record->value_or_nan(quantity::initiation_strain);
     if (std::isfinite(strain)) reach = std::max(reach, 1.1 * strain);
   }
   return reach;
@@ -67,7 +65,7 @@ render::Chart against_strain(const std::vector<SeriesCase>& cases, const Column&
   return chart;
 }
 
-void mark_initiation(render::Chart& chart, const std::vector<SeriesCase>& cases, const Measure& height) {
+void mark_initiation(render::Chart& chart, const std::vector<SeriesCase>& cases, const ValueOf& height) {
   render::Series marks{.label = "σci by axial stiffness",
                        .x = {},
                        .y = {},
@@ -76,7 +74,7 @@ void mark_initiation(render::Chart& chart, const std::vector<SeriesCase>& cases,
                        .marker = render::Marker::diamond,
                        .y_error = {}};
   for (const SeriesCase& item : cases) {
-    const double strain = 100 * result_or_nan(*item.record, "crack_initiation_strain.axial_stiffness");
+    const double strain = 100 * item.record->value_or_nan(quantity::initiation_strain);
     const double y = height(*item.record);
     if (!std::isfinite(strain) || !std::isfinite(y)) continue;
     marks.x.push_back(strain);
@@ -91,7 +89,7 @@ double swing_of_plateau(const dem::Record& record) {
   const dem::Table& history = record.table("history");
   const auto stress = history.real("axial_stress"), stiffness = history.real("axial_stiffness");
   if (stress.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const double base = 1e6 * record.number("confining_pressure_MPa"), rise = std::ranges::max(stress) - base;
+  const double base = 1e6 * record.number(parameter::confining_pressure.id), rise = std::ranges::max(stress) - base;
   double low = std::numeric_limits<double>::infinity(), high = 0, sum = 0, count = 0;
   for (std::size_t i = 0; i < stress.size() && stress[i] < base + 0.25 * rise; ++i) {
     if (stress[i] < base + 0.10 * rise || !std::isfinite(stiffness[i])) continue;
@@ -106,7 +104,7 @@ double swing_of_plateau(const dem::Record& record) {
 double stiffness_at_initiation(const dem::Record& record) {
   const dem::Table& history = record.table("history");
   return 1e-9 * at_first(history.real("axial_strain"), history.real("axial_stiffness"),
-                         result_or_nan(record, "crack_initiation_strain.axial_stiffness"));
+                         record.value_or_nan(quantity::initiation_strain));
 }
 
 /// Crack initiation in laboratories, Eq. 12: between these shares of sigma_c plus these multiples of sigma_3.
@@ -124,7 +122,7 @@ struct Published {
   [[nodiscard]] double operator()(double sigma_3) const { return analysis::hoek_brown(sigma_3, sigma_c, m, s); }
 };
 
-render::Series points(const StrengthPoints& of, const std::string& label, const render::Colour& colour,
+render::Series points(const analysis::StrengthPoints& of, const std::string& label, const render::Colour& colour,
                       render::Marker marker) {
   return {.label = label,
           .x = of.sigma_3,
@@ -135,7 +133,8 @@ render::Series points(const StrengthPoints& of, const std::string& label, const 
           .y_error = {}};
 }
 
-render::Chart envelope_chart(const StudyResult& study, const Envelopes& found, const std::vector<double>& tension) {
+render::Chart envelope_chart(const StudyResult& study, const analysis::Envelopes& found,
+                             const std::vector<double>& tension) {
   render::Chart chart;
   chart.x.title = "Confining pressure σ₃ (MPa)";
   chart.left.title = "Axial stress σ₁ (MPa)";
@@ -145,7 +144,7 @@ render::Chart envelope_chart(const StudyResult& study, const Envelopes& found, c
   chart.series.push_back(points(found.peak, "peak", peak_colour, render::Marker::circle));
   chart.series.push_back(points(found.damage, "crack damage", damage_colour, render::Marker::square));
   // The two readings that the paper's text gives: where the stiffness leaves its plateau, and its number, the stress at 0.1 %.
-  const Initiation &by_stiffness = found.initiation[0], &by_strain = found.initiation[1];
+  const analysis::Initiation &by_stiffness = found.initiation[0], &by_strain = found.initiation[1];
   chart.series.push_back(
       points(by_stiffness.points, "σci by axial stiffness", initiation_colour, render::Marker::triangle));
   chart.series.push_back(
@@ -199,7 +198,7 @@ render::Chart envelope_chart(const StudyResult& study, const Envelopes& found, c
   return chart;
 }
 
-TextTable envelope_table(const StudyResult& study, const Envelopes& found) {
+TextTable envelope_table(const StudyResult& study, const analysis::Envelopes& found) {
   TextTable table{{"Envelope", "Parameter", "Published", "Ours (95 % interval)", "Points"}, {}};
   const auto row = [&](const char* envelope, const char* parameter, const char* published, std::string_view name,
                        std::size_t n) {
@@ -213,7 +212,7 @@ TextTable envelope_table(const StudyResult& study, const Envelopes& found) {
   row("", "m", "envelope_free_m", "free.m", found.peak.sigma_1.size());
   row("crack damage, σc = UCS", "m", "envelope_damage_m", "damage.m", found.damage.sigma_1.size());
   row("", "s", "envelope_damage_s", "damage.s", found.damage.sigma_1.size());
-  for (const Initiation& one : found.initiation) {
+  for (const analysis::Initiation& one : found.initiation) {
     const std::string name = "crack initiation: " + std::string(one.name), id = "initiation." + std::string(one.id);
     row(name.c_str(), "at σ₃ = 0 (MPa)", "initiation_intercept", id + ".intercept", one.points.sigma_1.size());
     row("", "slope", "initiation_slope", id + ".slope", one.points.sigma_1.size());
@@ -232,7 +231,7 @@ FigureContent confinement_curves(const StudyResult& study) {
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
   const std::string peaks = by_case(cases, peak_stress, 4, "MPa");
-  const std::string strains = by_case(cases, result("crack_initiation_strain.axial_stiffness", 100), 2, "%");
+  const std::string strains = by_case(cases, shown(quantity::initiation_strain), 2, "%");
   render::Chart whole = against_strain(cases, {"axial_stress", "Axial stress σ₁ (MPa)", 1e-6}, 1e300);
   whole.left.low = 0;
   content.panels.push_back(
@@ -242,7 +241,7 @@ FigureContent confinement_curves(const StudyResult& study) {
        .content = whole});
   render::Chart start = against_strain(cases, {"axial_stress", "Axial stress σ₁ (MPa)", 1e-6}, small_strain(cases));
   start.left.low = 0;
-  mark_initiation(start, cases, result("crack_initiation_MPa.axial_stiffness"));
+  mark_initiation(start, cases, shown(quantity::initiation_by_stiffness));
   content.panels.push_back(
       {.id = "start",
        .caption = "The same at small strains, and where the stiffness leaves its plateau.",
@@ -251,14 +250,14 @@ FigureContent confinement_curves(const StudyResult& study) {
   render::Chart stiffness =
       against_strain(cases, {"axial_stiffness", "Axial stiffness (GPa)", 1e-9}, small_strain(cases));
   double highest = 0;
-  for (const SeriesCase& item : cases) highest = std::max(highest, result_or_nan(*item.record, "young_modulus_GPa"));
+  for (const SeriesCase& item : cases) highest = std::max(highest, item.record->value_or_nan(quantity::young_modulus));
   stiffness.left.low = 0;
   if (highest > 0) stiffness.left.high = 1.4 * highest;
   mark_initiation(stiffness, cases, stiffness_at_initiation);
   content.panels.push_back(
       {.id = "stiffness",
        .caption = "Axial stiffness (Eq. 9) at small strains, and where it leaves its plateau.",
-       .alt = "Axial stiffness; Young’s moduli of " + by_case(cases, result("young_modulus_GPa"), 3, "GPa") + ".",
+       .alt = "Axial stiffness; Young’s moduli of " + by_case(cases, shown(quantity::young_modulus), 3, "GPa") + ".",
        .content = stiffness});
   content.finding = "At " +
                     joined(
@@ -294,7 +293,7 @@ FigureContent confinement_envelopes(const StudyResult& study) {
       "flat "
       "joint model and of laboratories, which the text does not list, are left out.";
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
-  const Envelopes found = envelopes_of(study);
+  const analysis::Envelopes found = envelopes_of(study);
   if (found.peak.sigma_3.empty()) return content;
   const auto tension = tensile_strengths(study);
   std::vector<std::string> said;
@@ -306,7 +305,7 @@ FigureContent confinement_envelopes(const StudyResult& study) {
     said.push_back("crack damage with m " + estimate_text(found.damage_fit->m, 3) + " and s " +
                    estimate_text(found.damage_fit->s, 2));
   }
-  for (const Initiation* one : {&found.initiation[0], &found.initiation[1]}) {
+  for (const analysis::Initiation* one : {&found.initiation[0], &found.initiation[1]}) {
     if (!one->fit) continue;
     said.push_back(fmt::format("crack initiation ({}) at {} MPa with a slope of {}", one->name,
                                estimate_text(one->fit->intercept, 3), estimate_text(one->fit->slope, 2)));
@@ -327,7 +326,7 @@ FigureContent confinement_envelopes(const StudyResult& study) {
   // Eq. 12: 0.3 to 0.5 of sigma_c, slope 1 to 1.5. Of the four readings only a stress at a set strain has a slope near 1 by itself:
   // it is sigma_3 and the elastic stress of that strain.
   const double ucs = found.ucs;
-  for (const Initiation& one : found.initiation) {
+  for (const analysis::Initiation& one : found.initiation) {
     if (!one.fit || !std::isfinite(ucs)) continue;
     const double share = one.fit->intercept.value / ucs, slope = one.fit->slope.value;
     content.finding += fmt::format(" By {}: {} UCS {} {} σ₃, {} the range of Eq. 12.", one.name, number(share, 2),
@@ -342,7 +341,7 @@ FigureContent confinement_after_peak(const StudyResult& study) {
   content.statement = "After the peak the rock turns from brittle to ductile with confining pressure.";
   const auto cases = confined(study);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
-  const Measure residual = result("residual_over_peak");
+  const ValueOf residual = shown(quantity::residual_over_peak);
   render::Series series = means(cases, residual);
   if (series.x.empty()) {
     content.panels.push_back(
@@ -351,14 +350,14 @@ FigureContent confinement_after_peak(const StudyResult& study) {
   }
   series.colour = peak_colour;
   render::Chart chart;
-  chart.x.title = confining_axis.title;
+  chart.x.title = axis_title(parameter::confining_pressure);
   chart.left.title = "Residual over peak stress";
   chart.left.low = 0;
   chart.left.high = 1.1;
   series.label = "at the end";
   chart.series.push_back(series);
-  const double reach = common_reach(cases);
-  const Measure equal = stress_after_peak(reach);
+  const double reach = analysis::common_reach(points_of(cases));
+  const ValueOf equal = analysis::stress_after_peak(reach);
   render::Series beside = means(cases, equal);
   const std::string same_strain = number(reach, 2) + " % of strain after the peak";
   beside.label = same_strain;
@@ -379,7 +378,7 @@ FigureContent confinement_after_peak(const StudyResult& study) {
   TextTable servo{{"Confining pressure (MPa)", "Largest error of the servo (%)"}, {}};
   double worst = 0;
   for (const SeriesCase& item : cases) {
-    const double error = spread_of(item, result("servo_error", 100)).mean;
+    const double error = analysis::spread(item, shown(quantity::servo_error)).mean;
     if (!std::isfinite(error)) continue;
     worst = std::max(worst, error);
     servo.rows.push_back({number(item.value), number(error, 2)});
@@ -393,9 +392,9 @@ FigureContent confinement_after_peak(const StudyResult& study) {
          .per_row = 1});
   }
   content.finding = "Residual over peak: " + ratios + ".";
-  const std::string trend = trend_words(cases, residual, "", confining_axis);
+  const std::string trend = trend_words(cases, residual, "", parameter::confining_pressure);
   if (!trend.empty()) content.finding += " It " + trend + ".";
-  const std::string beside_trend = trend_words(cases, equal, "", confining_axis);
+  const std::string beside_trend = trend_words(cases, equal, "", parameter::confining_pressure);
   content.finding += " At " + same_strain + " the stress is " + by_case(cases, equal, 2, "") + " of the peak";
   content.finding += beside_trend.empty() ? "." : ": it " + beside_trend + ".";
   if (!servo.rows.empty()) content.finding += " The confining pressure is kept within " + number(worst, 2) + " %.";

@@ -13,7 +13,7 @@
 namespace reports::texture {
 namespace {
 
-Measure number_of(const CrackClass& one) { return result("cracks." + std::string(one.id)); }
+ValueOf number_of(const CrackClass& one) { return shown(one.number); }
 
 double all_of(const dem::Record& record) {
   double total = 0;
@@ -21,7 +21,7 @@ double all_of(const dem::Record& record) {
   return total;
 }
 
-Measure share_of(const CrackClass& one) {
+ValueOf share_of(const CrackClass& one) {
   return [&one](const dem::Record& record) {
     const double total = all_of(record);
     return total > 0 ? 100 * number_of(one)(record) / total : std::nan("");
@@ -40,7 +40,7 @@ render::Chart bars_by_class(const std::vector<SeriesCase>& cases) {
     std::vector<double> values, errors;
     for (std::size_t k = 0; k <= crack_classes().size(); ++k) {
       const Spread spread =
-          spread_of(item, k < crack_classes().size() ? number_of(crack_classes()[k]) : Measure(all_of));
+          analysis::spread(item, k < crack_classes().size() ? number_of(crack_classes()[k]) : ValueOf(all_of));
       values.push_back(std::isfinite(spread.mean) ? spread.mean : 0);
       errors.push_back(spread.deviation);
       repeated = repeated || spread.count > 1;
@@ -61,12 +61,12 @@ render::Chart bars_by_class(const std::vector<SeriesCase>& cases) {
 }
 
 // Lines along the swept parameter: a line a class, and one for all cracks.
-render::Chart lines_by_class(const std::vector<SeriesCase>& cases, const Axis& axis, bool shares) {
+render::Chart lines_by_class(const std::vector<SeriesCase>& cases, const dem::Parameter& axis, bool shares) {
   constexpr std::array lines{render::Line::solid, render::Line::dash, render::Line::dash_dot, render::Line::dot};
   constexpr std::array markers{render::Marker::circle, render::Marker::square, render::Marker::diamond,
                                render::Marker::triangle};
   render::Chart chart;
-  chart.x.title = axis.title;
+  chart.x.title = axis_title(axis);
   chart.left.title = shares ? "Share of cracks (%)" : "Number of cracks";
   chart.left.low = 0;
   for (std::size_t k = 0; k < crack_classes().size(); ++k) {
@@ -231,7 +231,7 @@ FigureContent crack_counts(const StudyResult& study) {
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
-  const Axis& axis = swept_axis(study);
+  const dem::Parameter& axis = swept_axis(study);
   std::vector<std::string> parts;
   for (const CrackClass& one : crack_classes())
     parts.push_back(std::string(one.name) + " " + by_case(cases, number_of(one), 0, ""));
@@ -241,7 +241,7 @@ FigureContent crack_counts(const StudyResult& study) {
   for (const CrackClass& one : crack_classes())
     shares.push_back(std::string(one.name) + " " + by_case(cases, share_of(one), 3, "%"));
   const std::string found = "Cracks at " + joined(labels, ", ") + ": " + joined(parts, "; ") + ".";
-  if (axis.parameter == "aspect_ratio") {
+  if (axis.id == "aspect_ratio") {
     content.panels.push_back({.id = "",
                               .caption = "Cracks at the end of loading, by class and aspect ratio." + with_its(cases),
                               .alt = found,

@@ -158,7 +158,7 @@ FigureContent genesis_steps(const StudyResult& study) {
       "grains; coordination {}, "
       "porosity {}.",
       count(grains), count(particles), percent(1 - gaps / particles), rounds_of(*record), count(gaps),
-      number(record->result("coordination"), 3), number(record->result("porosity"), 4));
+      number(record->value(quantity::coordination), 3), number(record->value(quantity::porosity), 4));
   return content;
 }
 

@@ -12,14 +12,15 @@ namespace reports::texture {
 namespace {
 
 struct Reading {
-  std::string_view id, name, how;
+  dem::Quantity stress;
+  std::string_view name, how;
 };
 constexpr std::array readings{
-    Reading{"axial_stiffness", "Axial stiffness",
+    Reading{quantity::initiation_by_stiffness, "Axial stiffness",
             "Eq. 9 leaves its early plateau by the set share (measure.stiffness_departure)"},
-    Reading{"strain_0_1_percent", "Strain of 0.1 %", "the stress there; the paper's own number"},
-    Reading{"one_percent_of_cracks", "One percent of cracks", "as many cracks as 1 % of those at the peak"},
-    Reading{"crack_volumetric_strain", "Crack volumetric strain",
+    Reading{quantity::stress_at_strain, "Strain of 0.1 %", "the stress there; the paper's own number"},
+    Reading{quantity::initiation_by_cracks, "One percent of cracks", "as many cracks as 1 % of those at the peak"},
+    Reading{quantity::initiation_by_volume, "Crack volumetric strain",
             "the volumetric strain less its elastic part turns to dilation"}};
 
 std::string cell(const Spread& spread, int digits) {
@@ -41,10 +42,12 @@ FigureContent initiation_readings(const StudyResult& study) {
   TextTable table{{"Reading", "Where", "σci (MPa)", "Share of the peak (%)"}, {}};
   std::vector<std::string> said;
   for (const Reading& one : readings) {
-    const Measure stress = result("crack_initiation_MPa." + std::string(one.id));
-    const Measure share = [&](const dem::Record& r) { return 100 * stress(r) / result_or_nan(r, "ucs_MPa"); };
-    const Spread found = spread_of(cases.front(), stress);
-    const Spread part = spread_of(cases.front(), share);
+    const ValueOf stress = shown(one.stress);
+    const ValueOf share = [&](const dem::Record& r) {
+      return 100 * stress(r) / r.value_or_nan(quantity::compressive_strength);
+    };
+    const Spread found = analysis::spread(cases.front(), stress);
+    const Spread part = analysis::spread(cases.front(), share);
     table.rows.push_back({std::string(one.name), std::string(one.how), cell(found, 3), cell(part, 3)});
     std::string name(one.name);
     name[0] = static_cast<char>(std::tolower(name[0]));

@@ -122,16 +122,11 @@ std::vector<Group> groups_of(const StudyResult& study) {
   return groups;
 }
 
-std::string spread_text(const Group& group, std::string_view name, double factor, int places) {
+std::string spread_text(const Group& group, const dem::Quantity& of, int places) {
   std::vector<double> values;
-  for (const dem::Record* r : group.records) values.push_back(factor * result_or_nan(*r, name));
-  const auto n = static_cast<double>(values.size());
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
-  double square = 0;
-  for (const double v : values) square += (v - mean) * (v - mean);
-  std::string text = fixed(mean, places);
-  if (n > 1) text += " ± " + fixed(std::sqrt(square / (n - 1)), places);
-  return text;
+  for (const dem::Record* r : group.records) values.push_back(of.factor * r->value_or_nan(of));
+  const Spread spread = analysis::spread(values);
+  return fixed(spread.mean, places) + (spread.count > 1 ? " ± " + fixed(spread.deviation, places) : "");
 }
 
 // Surface of an ellipsoid of revolution over that of the sphere of its volume; and what Eq. 14 gives for it.
@@ -327,18 +322,18 @@ FigureContent texture_by_seed(const StudyResult& study) {
   if (auto missing = missing_cases(study, test_genesis)) content.panels.push_back(*missing);
   const auto cases = swept(study, test_genesis);
   if (cases.empty()) return content;
-  const Measure share = result("inter_grain_share", 100);
+  const ValueOf share = shown(quantity::inter_grain_share);
   TextTable table{{"Specimen", "Seeds", "Contacts between grains (%)", "Coordination", "Porosity", "Particles",
                    "Grains", "Gap particles (%)", "Rounds"},
                   {}};
   for (const Group& group : groups_of(study)) {
     table.rows.push_back({group.label, std::to_string(group.records.size()),
-                          spread_text(group, "inter_grain_share", 100, 2), spread_text(group, "coordination", 1, 3),
-                          spread_text(group, "porosity", 1, 4), spread_text(group, "particles", 1, 0),
-                          spread_text(group, "grains", 1, 0), spread_text(group, "gap_share", 100, 1),
-                          spread_text(group, "growth_rounds", 1, 1)});
+                          spread_text(group, quantity::inter_grain_share, 2),
+                          spread_text(group, quantity::coordination, 3), spread_text(group, quantity::porosity, 4),
+                          spread_text(group, quantity::particles, 0), spread_text(group, quantity::grains, 0),
+                          spread_text(group, quantity::gap_share, 1), spread_text(group, quantity::growth_rounds, 1)});
   }
-  if (swept_axis(study).parameter == "aspect_ratio" && cases.size() > 1) {
+  if (swept_axis(study).id == "aspect_ratio" && cases.size() > 1) {
     render::Chart chart;
     chart.x.title = "Aspect ratio";
     chart.x.low = cases.front().value - 0.2;
@@ -348,7 +343,7 @@ FigureContent texture_by_seed(const StudyResult& study) {
     ours.label = "this study, mean and standard deviation over seeds";
     ours.marker = render::Marker::circle;
     chart.series.push_back(ours);
-    const double base = spread_of(cases.front(), share).mean;
+    const double base = analysis::spread(cases.front(), share).mean;
     const auto line = [&](const char* label, double (*surface)(double), render::Line kind, std::size_t colour) {
       const double first = cases.front().value;
       render::Series series = line_of(
@@ -374,19 +369,19 @@ FigureContent texture_by_seed(const StudyResult& study) {
         "Eq. 14, which is a mean "
         "of sections and not the surface. ",
         trend_words(cases, share, "points", swept_axis(study)), shortest(cases.front().value), shortest(last),
-        number(spread_of(cases.back(), share).mean / base, 4),
+        number(analysis::spread(cases.back(), share).mean / base, 4),
         number(exact_surface(last) / exact_surface(cases.front().value), 4),
         number(published_surface(last) / published_surface(cases.front().value), 4));
   }
   content.panels.push_back(
       {.id = "table", .caption = "Mean and standard deviation over seeds.", .alt = "", .content = table, .per_row = 1});
-  const Spread at_base = spread_of(cases.front(), share);
+  const Spread at_base = analysis::spread(cases.front(), share);
   if (at_base.count > 1) {
     content.finding += fmt::format(
         "Over {} seeds the share scatters by {} percentage points, the coordination by {}, the porosity by {}.",
         at_base.count, number(at_base.deviation, 2),
-        number(spread_of(cases.front(), result("coordination")).deviation, 2),
-        number(spread_of(cases.front(), result("porosity")).deviation, 2));
+        number(analysis::spread(cases.front(), shown(quantity::coordination)).deviation, 2),
+        number(analysis::spread(cases.front(), shown(quantity::porosity)).deviation, 2));
   }
   return content;
 }

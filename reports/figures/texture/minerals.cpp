@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "reports/envelopes.h"
+#include "engine/analysis/envelopes.h"
 #include "reports/figures/table.h"
 #include "reports/figures/texture/parts.h"
 #include "reports/page/text.h"
@@ -36,8 +36,8 @@ std::vector<std::string> minerals_tested(const StudyResult& study) {
   return found;
 }
 
-Spread of_first(const std::vector<SeriesCase>& cases, const Measure& value) {
-  return cases.empty() ? Spread{.mean = std::nan("")} : spread_of(cases.front(), value);
+Spread of_first(const std::vector<SeriesCase>& cases, const ValueOf& value) {
+  return cases.empty() ? Spread{.mean = std::nan("")} : analysis::spread(cases.front(), value);
 }
 
 std::string beside(const Spread& ours, double theirs, int digits) {
@@ -58,11 +58,12 @@ FigureContent mineral_properties(const StudyResult& study) {
   std::vector<std::string> said;
   for (const std::string& mineral : minerals_tested(study)) {
     const StudyResult part = of_mineral(study, mineral);
-    const auto pressed = series_of(part, test_compression, confining_axis);
-    const auto pulled = series_of(part, test_tension, confining_axis);
+    const auto pressed = series_of(part, test_compression, parameter::confining_pressure);
+    const auto pulled = series_of(part, test_tension, parameter::confining_pressure);
     const Published theirs = published_of(study, mineral);
-    const Spread modulus = of_first(pressed, result("young_modulus_GPa")), ucs = of_first(pressed, result("ucs_MPa"));
-    const Spread ts = of_first(pulled, result("tensile_strength_MPa"));
+    const Spread modulus = of_first(pressed, shown(quantity::young_modulus)),
+                 ucs = of_first(pressed, shown(quantity::compressive_strength));
+    const Spread ts = of_first(pulled, shown(quantity::tensile_strength));
     const auto m = envelopes_of(study, mineral).find("peak.m");
     table.rows.push_back(
         {mineral, beside(modulus, theirs.young_modulus, 3), beside(ts, theirs.tensile_strength, 3),
@@ -98,7 +99,7 @@ FigureContent mineral_envelopes(const StudyResult& study) {
       "strongest, biotite the weakest.";
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   render::Chart chart;
-  chart.x.title = confining_axis.title;
+  chart.x.title = axis_title(parameter::confining_pressure);
   chart.left.title = "Peak axial stress σ₁ (MPa)";
   chart.left.low = 0;
   constexpr std::array markers{render::Marker::circle, render::Marker::square, render::Marker::triangle,
@@ -106,7 +107,7 @@ FigureContent mineral_envelopes(const StudyResult& study) {
   std::vector<std::string> said;
   std::size_t index = 0;
   for (const std::string& mineral : minerals_tested(study)) {
-    const Envelopes found = envelopes_of(study, mineral);
+    const analysis::Envelopes found = envelopes_of(study, mineral);
     if (found.peak.sigma_3.empty()) continue;
     const render::Colour colour = render::palette(index);
     chart.series.push_back({.label = mineral,

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/analysis/orientation.h"
 #include "reports/figures/table.h"
 #include "reports/figures/texture/parts.h"
-#include "engine/analysis/orientation.h"
 #include "reports/page/text.h"
 
 namespace reports::texture {
@@ -19,7 +19,7 @@ constexpr double band_diameters = 5;  // thickness of the band in mean particle 
 std::size_t first_after_peak(const dem::Record& record) {
   const dem::Table& cracks = record.table("cracks");
   const auto strain = cracks.real("strain");
-  const double peak = result_or_nan(record, "peak_strain");
+  const double peak = record.value_or_nan(quantity::peak_strain);
   std::size_t first = 0;
   while (first < strain.size() && !(strain[first] >= peak)) ++first;
   return strain.size() - first < 50 ? 0 : first;
@@ -54,7 +54,8 @@ Band band_of(const dem::Record& record, int draws) {
   const auto area = cracks.real("area").subspan(first);
   const double thickness = band_diameters * mean;
   return {analysis::densest_band(centred(cracks.real("position"), first), area, places, volume, thickness),
-          draws > 0 ? analysis::excess_at_random(cracks.integer("contact").subspan(first), area, places, volume, thickness, draws)
+          draws > 0 ? analysis::excess_at_random(cracks.integer("contact").subspan(first), area, places, volume,
+                                                 thickness, draws)
                     : 0};
 }
 
@@ -106,7 +107,7 @@ FigureContent crack_orientation(const StudyResult& study) {
     return [mode](const dem::Record& r) { return analysis::orientation_of(r.table("cracks"), 0, mode).mean; };
   };
   const auto inclination = [](const dem::Record& r) { return band_of(r, 0).fit.inclination; };
-  const Axis& axis = swept_axis(study);
+  const dem::Parameter& axis = swept_axis(study);
   TextTable table{
       {"Case", "Mean angle, all (°)", "Tension cracks (°)", "Shear cracks (°)", "Within 30° of the axis (%)",
        "Shear, of the crack area (%)", "Band’s angle to the axis (°)", "Crack density in the band over the mean",
@@ -131,8 +132,9 @@ FigureContent crack_orientation(const StudyResult& study) {
   std::vector<std::string> said, standing;
   for (const SeriesCase& item : cases) {
     const dem::Table& cracks = item.record->table("cracks");
-    const analysis::Orientation all = analysis::orientation_of(cracks, 0), tension = analysis::orientation_of(cracks, 0, 0),
-                      shear = analysis::orientation_of(cracks, 0, 1);
+    const analysis::Orientation all = analysis::orientation_of(cracks, 0),
+                                tension = analysis::orientation_of(cracks, 0, 0),
+                                shear = analysis::orientation_of(cracks, 0, 1);
     const auto [band, at_random] = band_of(*item.record, 5);
     table.rows.push_back({item.label, shown(all.mean, 3), shown(tension.mean, 3), shown(shear.mean, 3),
                           shown(100 * all.along, 3), shown(100 * shear.area / all.area, 2), shown(band.inclination, 2),
@@ -154,7 +156,7 @@ FigureContent crack_orientation(const StudyResult& study) {
        .per_row = 2});
   if (!angles.x.empty()) {
     render::Chart chart;
-    chart.x.title = axis.title;
+    chart.x.title = axis_title(axis);
     chart.left.title = "Angle to the loading axis (°)";
     chart.left.low = 0;
     chart.left.high = 90;

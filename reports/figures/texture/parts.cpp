@@ -85,20 +85,14 @@ double mean_diameter(const dem::Record& record) {
                         : 2 * std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(radius.size());
 }
 
-const Axis confining_axis{
-    "confining_pressure_MPa",   "σ₃", " MPa", "sigma3", "Confining pressure σ₃ (MPa)", "the confining pressure",
-    "MPa of confining pressure"};
-
-const Axis& swept_axis(const StudyResult& study) {
-  static const std::array<Axis, 3> axes{
-      Axis{"aspect_ratio", "AR", "", "ar", "Aspect ratio", "the aspect ratio", "unit of aspect ratio"},
-      Axis{"dip", "dip", "°", "dip", "Dip of the long axis (°)", "the dip", "degree of dip"}, confining_axis};
-  const Axis* most = axes.data();
+const dem::Parameter& swept_axis(const StudyResult& study) {
+  static constexpr std::array axes{parameter::aspect_ratio, parameter::dip, parameter::confining_pressure};
+  const dem::Parameter* most = axes.data();
   std::size_t values = 0;
-  for (const Axis& axis : axes) {
+  for (const dem::Parameter& axis : axes) {
     std::size_t n = 0;
     for (const auto test : {test_compression, test_tension, test_genesis})
-      n = std::max(n, series_of(study, test, axis).size());
+      n = std::max(n, analysis::series_of(study.cases, test, axis).size());
     if (n > values) most = &axis, values = n;
   }
   return *most;
@@ -114,21 +108,28 @@ const dem::Record* first_specimen(const StudyResult& study) {
 }
 
 StudyResult of_mineral(const StudyResult& study, std::string_view mineral) {
-  StudyResult chosen{study.scenario, {}, study.published};
-  for (const CaseResult& one : study.cases) {
-    if (!one.record) continue;
-    const auto named = std::ranges::find(one.record->parameters, "mineral", [](const auto& p) { return p.first; });
-    const auto* text = named == one.record->parameters.end() ? nullptr : std::get_if<std::string>(&named->second);
-    if ((text ? std::string_view(*text) : std::string_view()) == mineral) chosen.cases.push_back(one);
-  }
+  StudyResult chosen = study;
+  std::erase_if(chosen.cases, [&](const CaseResult& one) {
+    const dem::ParameterValue* value = dem::find_value(one.parameters, parameter::mineral.id);
+    const auto* name = value ? std::get_if<std::string>(value) : nullptr;
+    return !one.record || (name ? std::string_view(*name) : std::string_view()) != mineral;
+  });
   return chosen;
 }
 
+analysis::Envelopes envelopes_of(const StudyResult& study, std::string_view mineral) {
+  const auto cases = of_mineral(study, mineral).cases;
+  return analysis::envelopes_of(
+      analysis::series_of(cases, test_compression, parameter::confining_pressure),
+      {quantity::compressive_strength, quantity::crack_damage, quantity::initiation_readings});
+}
+
 const std::array<CrackClass, 4>& crack_classes() {
-  static const std::array<CrackClass, 4> classes{{{"inter_tension", "inter-grain tension", 1, 0, {0.835, 0.369, 0.0}},
-                                                  {"inter_shear", "inter-grain shear", 1, 1, {0.0, 0.0, 0.0}},
-                                                  {"intra_tension", "intra-grain tension", 0, 0, {0.0, 0.353, 0.612}},
-                                                  {"intra_shear", "intra-grain shear", 0, 1, {0.337, 0.706, 0.914}}}};
+  static const std::array<CrackClass, 4> classes{
+      {{"inter_tension", "inter-grain tension", 1, 0, {0.835, 0.369, 0.0}, quantity::cracks_inter_tension},
+       {"inter_shear", "inter-grain shear", 1, 1, {0.0, 0.0, 0.0}, quantity::cracks_inter_shear},
+       {"intra_tension", "intra-grain tension", 0, 0, {0.0, 0.353, 0.612}, quantity::cracks_intra_tension},
+       {"intra_shear", "intra-grain shear", 0, 1, {0.337, 0.706, 0.914}, quantity::cracks_intra_shear}}};
   return classes;
 }
 

@@ -42,15 +42,15 @@ struct Level {
 std::vector<Level> levels_of(const dem::Record& record) {
   const dem::Table& history = record.table("history");
   std::vector<Level> levels;
-  const auto add = [&](const std::string& symbol, std::string_view result) {
-    const double stress = result_or_nan(record, result);
+  const auto add = [&](const std::string& symbol, const dem::Quantity& level) {
+    const double stress = record.value_or_nan(level);
     const double strain = std::isfinite(stress) ? strain_at(history, stress) : stress;
     if (std::isfinite(strain)) levels.push_back({symbol, stress, strain});
   };
-  add("σci", "crack_initiation_MPa.axial_stiffness");
-  add("σcd", "crack_damage_MPa");
-  const double ucs = result_or_nan(record, "ucs_MPa");
-  if (std::isfinite(ucs)) levels.push_back({"peak", ucs, 100 * result_or_nan(record, "peak_strain")});
+  add("σci", quantity::initiation_by_stiffness);
+  add("σcd", quantity::crack_damage);
+  const double ucs = record.value_or_nan(quantity::compressive_strength);
+  if (std::isfinite(ucs)) levels.push_back({"peak", ucs, 100 * record.value_or_nan(quantity::peak_strain)});
   if (!levels.empty() && !std::isfinite(levels.back().strain)) levels.pop_back();
   return levels;
 }
@@ -104,7 +104,7 @@ render::Chart stiffness_and_cracks(const dem::Record& record) {
   chart.left.title = "Axial stiffness (GPa)";
   chart.left.low = 0;
   // At first load the strain is near zero and the ratio senseless: the axis is made for what comes after.
-  const double modulus = result_or_nan(record, "young_modulus_GPa");
+  const double modulus = record.value_or_nan(quantity::young_modulus);
   if (modulus > 0) chart.left.high = 1.5 * modulus;
   chart.right.title = "Cracks so far";
   chart.right.logarithmic = true;
@@ -187,8 +187,8 @@ std::vector<Strength> strengths(const std::vector<SeriesCase>& compression, cons
   for (const SeriesCase& item : compression) {
     const auto pulled = std::ranges::find(tension, item.value, &SeriesCase::value);
     if (pulled == tension.end()) continue;
-    const Spread ucs = spread_of(item, result("ucs_MPa"));
-    const Spread ts = spread_of(*pulled, result("tensile_strength_MPa"));
+    const Spread ucs = analysis::spread(item, shown(quantity::compressive_strength));
+    const Spread ts = analysis::spread(*pulled, shown(quantity::tensile_strength));
     if (!std::isfinite(ucs.mean) || !(ts.mean > 0)) continue;
     const double ratio = ucs.mean / ts.mean;
     found.push_back({item.label, ucs, ts, ratio, ratio * std::hypot(ucs.deviation / ucs.mean, ts.deviation / ts.mean)});
@@ -280,34 +280,35 @@ void add_strengths(FigureContent& content, const std::vector<Strength>& found) {
 }
 
 std::string strengths_found(const std::vector<SeriesCase>& compression, const std::vector<SeriesCase>& tension,
-                            const std::vector<Strength>& found, const Axis& axis) {
-  std::string text = "UCS " + by_case(compression, result("ucs_MPa"), 4, "MPa") + "; TS " +
-                     by_case(tension, result("tensile_strength_MPa"), 3, "MPa");
+                            const std::vector<Strength>& found, const dem::Parameter& axis) {
+  std::string text = "UCS " + by_case(compression, shown(quantity::compressive_strength), 4, "MPa") + "; TS " +
+                     by_case(tension, shown(quantity::tensile_strength), 3, "MPa");
   std::vector<std::string> ratios;
   for (const Strength& one : found) ratios.push_back(number(one.ratio, 3));
   text += ratios.empty() ? "." : "; UCS/TS " + listed(ratios) + ".";
-  const std::string ucs = trend_words(compression, result("ucs_MPa"), "MPa", axis);
-  const std::string ts = trend_words(tension, result("tensile_strength_MPa"), "MPa", axis);
+  const std::string ucs = trend_words(compression, shown(quantity::compressive_strength), "MPa", axis);
+  const std::string ts = trend_words(tension, shown(quantity::tensile_strength), "MPa", axis);
   if (!ucs.empty()) text += " UCS " + ucs + ".";
   if (!ts.empty()) text += " TS " + ts + ".";
   return text;
 }
 
-// Names after `prefix` in the results of any case, in order of first appearance.
-std::vector<std::string> names_after(const std::vector<SeriesCase>& cases, std::string_view prefix) {
+// The members of a family in the results of any case, in order of first appearance.
+std::vector<std::string> members_of(const std::vector<SeriesCase>& cases, const dem::Quantity& family) {
   std::vector<std::string> names;
-  std::set<std::string> seen;
   for (const SeriesCase& item : cases) {
-    for (const auto& [name, value] : item.record->results) {
-      if (name.starts_with(prefix) && seen.insert(name).second) names.push_back(name.substr(prefix.size()));
+    for (const auto& [id, value] : item.record->results) {
+      if (!family.covers(id)) continue;
+      std::string name = id.substr(family.id.size() - 1);
+      if (std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
     }
   }
   return names;
 }
 
-double share(const dem::Record& record, const std::string& name) {
-  const double value = result_or_nan(record, name);
-  return std::isfinite(value) ? 100 * value : 0;
+double share(const dem::Record& record, const dem::Quantity& family, const std::string& member) {
+  const double value = family.factor * record.value_or_nan(family, member);
+  return std::isfinite(value) ? value : 0;
 }
 
 render::Chart share_chart(const std::string& title, const std::vector<SeriesCase>& cases) {
@@ -332,16 +333,17 @@ void add_stack(render::Chart& chart, const std::string& label, const render::Col
   chart.bars->values.push_back(std::move(values));
 }
 
-std::vector<double> over_cases(const std::vector<SeriesCase>& cases, const std::string& result) {
+std::vector<double> over_cases(const std::vector<SeriesCase>& cases, const dem::Quantity& family,
+                               const std::string& member) {
   std::vector<double> values;
-  for (const SeriesCase& item : cases) values.push_back(share(*item.record, result));
+  for (const SeriesCase& item : cases) values.push_back(share(*item.record, family, member));
   return values;
 }
 
 render::Chart mineral_chart(const std::vector<SeriesCase>& cases) {
   render::Chart chart = share_chart("Share of particles (%)", cases);
-  for (const std::string& name : names_after(cases, "mineral_share.")) {
-    add_stack(chart, words(name), mineral_colour(words(name)), over_cases(cases, "mineral_share." + name));
+  for (const std::string& name : members_of(cases, quantity::mineral_share)) {
+    add_stack(chart, words(name), mineral_colour(words(name)), over_cases(cases, quantity::mineral_share, name));
   }
   return chart;
 }
@@ -350,8 +352,8 @@ render::Chart mineral_chart(const std::vector<SeriesCase>& cases) {
 render::Chart contact_chart(const std::vector<SeriesCase>& cases) {
   render::Chart chart = share_chart("Share of contacts (%)", cases);
   std::vector<double> between(cases.size(), 0.0);
-  for (const std::string& name : names_after(cases, "contact_share.")) {
-    const auto values = over_cases(cases, "contact_share." + name);
+  for (const std::string& name : members_of(cases, quantity::contact_share)) {
+    const auto values = over_cases(cases, quantity::contact_share, name);
     if (name.starts_with("intra_")) {
       add_stack(chart, "in " + words(name.substr(6)), mineral_colour(words(name.substr(6))), values);
     } else {
@@ -366,10 +368,10 @@ TextTable contact_table(const std::vector<SeriesCase>& cases) {
   TextTable table;
   table.head = {"Contact group"};
   for (const SeriesCase& item : cases) table.head.push_back(item.label + " (%)");
-  for (const std::string& name : names_after(cases, "contact_share.")) {
+  for (const std::string& name : members_of(cases, quantity::contact_share)) {
     std::vector<std::string> row{words(name)};
     for (const SeriesCase& item : cases)
-      row.push_back(fmt::format("{:.1f}", share(*item.record, "contact_share." + name)));
+      row.push_back(fmt::format("{:.1f}", share(*item.record, quantity::contact_share, name)));
     table.rows.push_back(row);
   }
   return table;
@@ -404,9 +406,9 @@ FigureContent progressive_failure(const StudyResult& study) {
                                    crack_words(crack_numbers(base, all_cracks)) + " at the end.",
                             .content = stiffness_and_cracks(base)});
   content.finding = "At " + cases.front().label + ": " + found + ".";
-  const double ucs = result_or_nan(base, "ucs_MPa");
-  const double ci = result_or_nan(base, "crack_initiation_MPa.axial_stiffness");
-  const double cd = result_or_nan(base, "crack_damage_MPa");
+  const double ucs = base.value_or_nan(quantity::compressive_strength);
+  const double ci = base.value_or_nan(quantity::initiation_by_stiffness);
+  const double cd = base.value_or_nan(quantity::crack_damage);
   if (std::isfinite(ci) && std::isfinite(cd) && ucs > 0) {
     content.finding +=
         fmt::format(" Initiation is {} and damage {} of the peak.", percent(ci / ucs, 0), percent(cd / ucs, 0));
@@ -423,8 +425,8 @@ FigureContent stress_strain(const StudyResult& study) {
   const auto compression = swept(study, test_compression);
   const auto tension = swept(study, test_tension);
   add_missing(content, study, {test_compression, test_tension});
-  const std::string ucs = by_case(compression, result("ucs_MPa"), 4, "MPa");
-  const std::string ts = by_case(tension, result("tensile_strength_MPa"), 3, "MPa");
+  const std::string ucs = by_case(compression, shown(quantity::compressive_strength), 4, "MPa");
+  const std::string ts = by_case(tension, shown(quantity::tensile_strength), 3, "MPa");
   if (!compression.empty()) {
     content.panels.push_back(
         {.id = "compression",
@@ -473,14 +475,14 @@ FigureContent group_shares(const StudyResult& study) {
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
   const std::string inter = by_case(
-      cases, [](const dem::Record& r) { return 100 * result_or_nan(r, "inter_grain_share"); }, 3, "%");
-  if (!names_after(cases, "mineral_share.").empty()) {
+      cases, [](const dem::Record& r) { return 100 * r.value_or_nan(quantity::inter_grain_share); }, 3, "%");
+  if (!members_of(cases, quantity::mineral_share).empty()) {
     content.panels.push_back({.id = "minerals",
                               .caption = "Minerals, by particles.",
                               .alt = "Stacked bars of the mineral shares, nearly the same in every case.",
                               .content = mineral_chart(cases)});
   }
-  if (!names_after(cases, "contact_share.").empty()) {
+  if (!members_of(cases, quantity::contact_share).empty()) {
     content.panels.push_back({.id = "contacts",
                               .caption = "Contacts within grains, by mineral, and between grains.",
                               .alt = "Stacked bars of the contact groups; between grains " + inter + ".",
@@ -489,7 +491,7 @@ FigureContent group_shares(const StudyResult& study) {
         {.id = "groups", .caption = "Every contact group.", .alt = "", .content = contact_table(cases)});
   }
   content.finding = "Contacts between grains: " + inter + ".";
-  const std::string trend = trend_words(cases, result("inter_grain_share", 100), "points", swept_axis(study));
+  const std::string trend = trend_words(cases, shown(quantity::inter_grain_share), "points", swept_axis(study));
   if (!trend.empty()) content.finding += " Their share " + trend + ".";
   return content;
 }

@@ -193,7 +193,7 @@ FigureContent grain_cluster(const StudyResult& study) {
          .alt = fmt::format(
              "Cluster of {} spheres of grain {} ({}) with its long axis of {:.2f} mm and short axis of {:.2f} mm.",
              grain.particles, *index, mineral, 2e3 * grain.semi_long, 2e3 * grain.semi_short),
-         .content = cluster_picture(item, *index, reach, swept_axis(study).parameter == "dip"),
+         .content = cluster_picture(item, *index, reach, swept_axis(study).id == "dip"),
          .per_row = 3});
   }
   content.finding = fmt::format("Grain {} has {} particles.", *index, listed(counts));

@@ -1,14 +1,14 @@
-#include "reports/after_peak.h"
+#include "engine/analysis/softening.h"
 
 #include <algorithm>
 #include <limits>
 
-namespace reports {
+namespace dem::analysis {
 
-double common_reach(const std::vector<SeriesCase>& cases) {
+double common_reach(std::span<const Point> points) {
   double reach = std::numeric_limits<double>::infinity();
-  for (const SeriesCase& item : cases) {
-    for (const dem::Record* record : item.repeats) {
+  for (const Point& item : points) {
+    for (const Record* record : item.repeats) {
       const auto strain = record->table("history").real("platen_strain"),
                  stress = record->table("history").real("axial_stress");
       if (strain.empty()) continue;
@@ -19,8 +19,8 @@ double common_reach(const std::vector<SeriesCase>& cases) {
   return reach;
 }
 
-Measure stress_after_peak(double reach) {
-  return [reach](const dem::Record& record) {
+ValueOf stress_after_peak(double reach) {
+  return [reach](const Record& record) {
     const auto strain = record.table("history").real("platen_strain"),
                stress = record.table("history").real("axial_stress");
     if (strain.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -36,4 +36,4 @@ Measure stress_after_peak(double reach) {
   };
 }
 
-}  // namespace reports
+}  // namespace dem::analysis

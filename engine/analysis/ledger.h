@@ -7,7 +7,7 @@
 
 #include "engine/core/record.h"
 
-namespace reports {
+namespace dem::analysis {
 
 struct LedgerTerm {
   std::string column;  ///< of the history table
@@ -16,9 +16,9 @@ struct LedgerTerm {
 };
 
 /// The energy columns of a history, in its order; empty when it keeps none.
-std::vector<LedgerTerm> ledger_terms(const dem::Table& history);
+std::vector<LedgerTerm> ledger_terms(const Table& history);
 
 /// True for the energies of a sheet: not joules.
-bool in_elastic_constants(const dem::Table& history);
+bool in_elastic_constants(const Table& history);
 
-}  // namespace reports
+}  // namespace dem::analysis

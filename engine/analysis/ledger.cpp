@@ -1,11 +1,9 @@
-#include "reports/ledger.h"
+#include "engine/analysis/ledger.h"
 
 #include <algorithm>
 #include <array>
 
-#include "reports/page/text.h"
-
-namespace reports {
+namespace dem::analysis {
 namespace {
 
 std::string label_of(const std::string& column) {
@@ -24,19 +22,20 @@ std::string label_of(const std::string& column) {
        {"residual", "Residual"}}};
   const auto found = std::ranges::find(known, column, [](const auto& item) { return item.first; });
   if (found != known.end()) return std::string(found->second);
-  std::string text = words(column);
+  std::string text = column;
+  std::ranges::replace(text, '_', ' ');
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
   return text;
 }
 
 }  // namespace
 
-bool in_elastic_constants(const dem::Table& history) { return history.has("boundary_work"); }
+bool in_elastic_constants(const Table& history) { return history.has("boundary_work"); }
 
-std::vector<LedgerTerm> ledger_terms(const dem::Table& history) {
+std::vector<LedgerTerm> ledger_terms(const Table& history) {
   constexpr std::array<std::string_view, 5> of_a_sheet{"boundary_work", "growth_work", "elastic", "released", "jumped"};
   std::vector<LedgerTerm> terms;
-  for (const dem::Column& column : history.columns) {
+  for (const Column& column : history.columns) {
     const bool energy = in_elastic_constants(history) ? std::ranges::find(of_a_sheet, column.name) != of_a_sheet.end()
                                                       : column.unit == "J" && column.width == 1;
     if (!energy) continue;
@@ -50,4 +49,4 @@ std::vector<LedgerTerm> ledger_terms(const dem::Table& history) {
   return terms;
 }
 
-}  // namespace reports
+}  // namespace dem::analysis

@@ -1,0 +1,95 @@
+#include "engine/model/case.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+#include "engine/model/model.h"
+#include "engine/scenario/units.h"
+
+namespace dem {
+namespace {
+
+bool matters(const Key& key, const std::vector<std::string>& kinds) {
+  if (key.affects != Affects::specimen && key.affects != Affects::test) return false;
+  return key.when.empty() || std::ranges::any_of(key.when, [&](const std::string& w) {
+           return std::ranges::find(kinds, w) != kinds.end();
+         });
+}
+
+ParameterValue usual_of(const Parameter& parameter) {
+  double number = 0;
+  const char* end = parameter.usual.data() + parameter.usual.size();
+  const auto [at, error] = std::from_chars(parameter.usual.data(), end, number);
+  return error == std::errc() && at == end ? ParameterValue(number) : ParameterValue(std::string(parameter.usual));
+}
+
+ParameterValue value_of(const Parameter& parameter, const Scenario& scenario) {
+  const Value& value = scenario.value(parameter.key);
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  // Without the noise of conversions, as in the parameters of cases.
+  const double scale = to_si(1, parameter.unit == "°" ? "deg" : parameter.unit);
+  return std::round(scenario.real(parameter.key) / scale * 1e9) / 1e9;
+}
+
+}  // namespace
+
+const std::string& CaseSpec::test() const {
+  const ParameterValue* value = find_value(parameters, "test");
+  const auto* name = value ? std::get_if<std::string>(value) : nullptr;
+  if (!name) throw std::logic_error("case '" + id + "' has no test");
+  return *name;
+}
+
+CaseSpec make_case(const Model& model, std::string id, Scenario scenario, Parameters parameters,
+                   const std::vector<std::string>& kinds, std::string_view inputs) {
+  std::vector<std::string> paths;
+  const auto add = [&](std::span<const Key> keys) {
+    for (const Key& key : keys) {
+      if (matters(key, kinds)) paths.push_back(key.path);
+    }
+  };
+  add(common_keys());
+  add(model.keys());
+  CaseSpec spec{std::move(id), std::move(scenario), {}, std::move(parameters)};
+  spec.content = fmt::format("model = {}\nphysics version = {}\nkind = {}\n{}{}", model.name, model.physics_version,
+                             fmt::join(kinds, ", "), spec.scenario.canonical(paths), inputs);
+  return spec;
+}
+
+Record new_record(const Model& model, const CaseSpec& spec) {
+  Record record;
+  record.model = model.name;
+  record.scenario = spec.scenario.name();
+  record.case_id = spec.id;
+  record.content = spec.content;
+  record.physics_version = model.physics_version;
+  record.seed = spec.scenario.seed();
+  record.parameters = spec.parameters;
+  record.quantities = model.quantities();
+  return record;
+}
+
+Parameters usual_values(std::span<const Parameter> declared, const Scenario& scenario) {
+  Parameters values;
+  for (const Parameter& parameter : declared) {
+    if (parameter.id == "seed") continue;
+    values.emplace_back(parameter.id, parameter.key.empty() ? usual_of(parameter) : value_of(parameter, scenario));
+  }
+  return values;
+}
+
+std::string id_part(double value) { return id_part(fmt::format("{}", value)); }
+
+std::string id_part(std::string_view text) {
+  std::string part(text);
+  std::ranges::replace(part, '.', '_');
+  std::ranges::replace(part, ' ', '_');
+  std::ranges::replace(part, '-', 'm');
+  return part;
+}
+
+}  // namespace dem

@@ -1,0 +1,273 @@
+#pragma once
+// What a case of the grain texture model gives, and what sets it apart. Stresses and strains are positive in the sense of
+// the test.
+#include <array>
+
+#include "engine/model/quantities.h"
+
+namespace dem::texture {
+
+namespace quantity {
+
+using dem::quantity::measured;
+
+inline constexpr std::string_view loaded = "compression direct_tension";
+
+inline constexpr Quantity young_modulus = measured(
+    dem::quantity::young_modulus, loaded,
+    "Slope of axial stress over the axial strain of the gauge, least squares between 10 and 30 % of the peak.");
+inline constexpr Quantity poisson_ratio = measured(dem::quantity::poisson_ratio, "compression",
+                                                   "Lateral over axial strain of the gauge at half the peak stress.");
+inline constexpr Quantity compressive_strength =
+    measured(dem::quantity::compressive_strength, "compression",
+             "Largest axial stress; without confining pressure the uniaxial compressive strength, UCS.");
+inline constexpr Quantity tensile_strength =
+    measured(dem::quantity::tensile_strength, "direct_tension", "Largest axial stress between the grips.");
+inline constexpr Quantity peak_strain =
+    measured(dem::quantity::peak_strain, loaded, "Axial strain of the gauge at the largest axial stress.");
+inline constexpr Quantity residual_over_peak{
+    .id = "residual_over_peak",
+    .name = "Residual over peak stress",
+    .tests = "compression",
+    .meaning =
+        "Mean axial stress over the last twentieth of the platens’ strain, over the peak; of tests that are "
+        "followed beyond their end."};
+inline constexpr Quantity initiation_by_stiffness{
+    .id = "crack_initiation.axial_stiffness",
+    .name = "Crack initiation stress, by axial stiffness",
+    .symbol = "σ_ci",
+    .unit = "MPa",
+    .tests = "compression",
+    .meaning = "Stress at which the axial stiffness leaves its early plateau by measure.stiffness_departure."};
+inline constexpr Quantity initiation_strain{
+    .id = "crack_initiation_strain.axial_stiffness",
+    .name = "Strain at crack initiation, by axial stiffness",
+    .symbol = "ε_ci",
+    .shown = "%",
+    .factor = 100,
+    .tests = "compression",
+    .meaning = "Axial strain of the gauge where the axial stiffness leaves its plateau."};
+inline constexpr Quantity stress_at_strain{.id = "crack_initiation.strain_0_1_percent",
+                                           .name = "Stress at 0.1 % axial strain",
+                                           .symbol = "σ_ci",
+                                           .unit = "MPa",
+                                           .tests = "compression",
+                                           .meaning =
+                                               "Axial stress at an axial strain of 0.1 %, the strain at which the "
+                                               "paper finds crack initiation."};
+inline constexpr Quantity initiation_by_cracks{
+    .id = "crack_initiation.one_percent_of_cracks",
+    .name = "Crack initiation stress, 1 % of cracks at the peak",
+    .symbol = "σ_ci",
+    .unit = "MPa",
+    .tests = "compression",
+    .meaning = "Stress at which 1 % of the cracks that are there at the peak have formed."};
+inline constexpr Quantity initiation_by_volume{
+    .id = "crack_initiation.crack_volumetric_strain",
+    .name = "Crack initiation stress, by crack volumetric strain",
+    .symbol = "σ_ci",
+    .unit = "MPa",
+    .tests = "compression",
+    .meaning = "Stress at which the crack volumetric strain, what is left after the elastic part, turns back."};
+inline constexpr Quantity crack_damage{.id = "crack_damage",
+                                       .name = "Crack damage stress",
+                                       .symbol = "σ_cd",
+                                       .unit = "MPa",
+                                       .tests = "compression",
+                                       .meaning = "Stress at the largest volumetric strain before the peak."};
+inline constexpr Quantity crack_damage_strain{
+    .id = "crack_damage_strain",
+    .name = "Strain at crack damage",
+    .symbol = "ε_cd",
+    .shown = "%",
+    .factor = 100,
+    .tests = "compression",
+    .meaning = "Axial strain of the gauge at the largest volumetric strain before the peak."};
+
+inline constexpr Quantity inter_grain_share{
+    .id = "inter_grain_share",
+    .name = "Inter-grain share of contacts",
+    .shown = "%",
+    .factor = 100,
+    .meaning = "Contacts between particles of different grains over all contacts."};
+inline constexpr Quantity coordination{.id = "coordination",
+                                       .name = "Coordination number",
+                                       .meaning = "Mean number of contacts of a particle of the packing."};
+inline constexpr Quantity porosity{.id = "porosity",
+                                   .name = "Porosity",
+                                   .meaning = "Volume of the packing that no sphere fills, overlaps counted twice."};
+inline constexpr Quantity mineral_share{.id = "mineral_share.*",
+                                        .name = "Share of a mineral",
+                                        .shown = "%",
+                                        .factor = 100,
+                                        .meaning = "Volume of the mineral’s particles over that of all."};
+inline constexpr Quantity contact_share{
+    .id = "contact_share.*",
+    .name = "Share of a contact group",
+    .shown = "%",
+    .factor = 100,
+    .meaning = "Contacts of one group over all: inside grains of a mineral, or between grains of two minerals."};
+
+inline constexpr Quantity cracks_intra_tension =
+    measured(dem::quantity::cracks_intra_tension, loaded, "Elements of flat joints broken in tension at the end.");
+inline constexpr Quantity cracks_intra_shear{.id = "cracks.intra_shear",
+                                             .name = "Cracks within grains, shear",
+                                             .kind = QuantityKind::count,
+                                             .of_size = true,
+                                             .tests = loaded,
+                                             .meaning = "Elements of flat joints broken in shear at the end."};
+inline constexpr Quantity cracks_inter_tension =
+    measured(dem::quantity::cracks_inter_tension, loaded, "Bonds between grains broken in tension at the end.");
+inline constexpr Quantity cracks_inter_shear{.id = "cracks.inter_shear",
+                                             .name = "Cracks between grains, shear",
+                                             .kind = QuantityKind::count,
+                                             .of_size = true,
+                                             .tests = loaded,
+                                             .meaning = "Bonds between grains broken in shear at the end."};
+inline constexpr Quantity peak_cracks_intra_tension{.id = "cracks_at_peak.intra_tension",
+                                                    .name = "Cracks at the peak within grains, tension",
+                                                    .kind = QuantityKind::count,
+                                                    .of_size = true,
+                                                    .tests = loaded,
+                                                    .meaning = "The same at the peak."};
+inline constexpr Quantity peak_cracks_intra_shear{.id = "cracks_at_peak.intra_shear",
+                                                  .name = "Cracks at the peak within grains, shear",
+                                                  .kind = QuantityKind::count,
+                                                  .of_size = true,
+                                                  .tests = loaded,
+                                                  .meaning = "The same at the peak."};
+inline constexpr Quantity peak_cracks_inter_tension{.id = "cracks_at_peak.inter_tension",
+                                                    .name = "Cracks at the peak between grains, tension",
+                                                    .kind = QuantityKind::count,
+                                                    .of_size = true,
+                                                    .tests = loaded,
+                                                    .meaning = "The same at the peak."};
+inline constexpr Quantity peak_cracks_inter_shear{.id = "cracks_at_peak.inter_shear",
+                                                  .name = "Cracks at the peak between grains, shear",
+                                                  .kind = QuantityKind::count,
+                                                  .of_size = true,
+                                                  .tests = loaded,
+                                                  .meaning = "The same at the peak."};
+/// In the order of the crack counts of a history: intra tension, intra shear, inter tension, inter shear.
+inline constexpr std::array cracks{cracks_intra_tension, cracks_intra_shear, cracks_inter_tension, cracks_inter_shear};
+inline constexpr std::array cracks_at_peak{peak_cracks_intra_tension, peak_cracks_intra_shear,
+                                           peak_cracks_inter_tension, peak_cracks_inter_shear};
+
+inline constexpr Quantity gap_share{
+    .id = "gap_share",
+    .name = "Share of gap particles",
+    .shown = "%",
+    .factor = 100,
+    .tests = "genesis",
+    .meaning = "Particles that no ellipsoid covers and that grains grow into, over all."};
+inline constexpr Quantity growth_rounds{.id = "growth_rounds",
+                                        .name = "Rounds of growth",
+                                        .kind = QuantityKind::count,
+                                        .tests = "genesis",
+                                        .meaning = "Rounds until every gap particle belonged to a grain."};
+inline constexpr Quantity floaters_removed{.id = "floaters_removed",
+                                           .name = "Floaters removed",
+                                           .kind = QuantityKind::count,
+                                           .of_size = true,
+                                           .tests = "genesis",
+                                           .meaning = "Particles without enough contacts, taken out of the packing."};
+
+inline constexpr Quantity servo_error{
+    .id = "servo_error",
+    .name = "Largest servo error",
+    .shown = "%",
+    .factor = 100,
+    .digits = 2,
+    .kind = QuantityKind::diagnostic,
+    .tests = "compression",
+    .meaning = "Largest departure of the confining pressure from its set value, to the end of the test."};
+inline constexpr Quantity energy_residual =
+    measured(dem::quantity::energy_residual, loaded,
+             "Largest residual of the energy account over max(W, 1 % of the largest W), W the work that came in.");
+inline constexpr Quantity stress_imbalance{
+    .id = "stress_imbalance",
+    .name = "Stress imbalance, root mean square",
+    .digits = 2,
+    .kind = QuantityKind::diagnostic,
+    .tests = loaded,
+    .meaning = "Difference between the stresses at the two ends up to the peak, over the peak stress."};
+inline constexpr Quantity largest_stress_imbalance{
+    .id = "largest_stress_imbalance",
+    .name = "Stress imbalance, largest",
+    .digits = 2,
+    .kind = QuantityKind::diagnostic,
+    .tests = loaded,
+    .meaning = "The largest of those differences: the wave of the one crack whose moment was sampled."};
+inline constexpr Quantity steps = measured(dem::quantity::steps, loaded, "Time steps of the test.");
+inline constexpr Quantity particles = measured(dem::quantity::particles, "", "Spheres of the specimen.");
+inline constexpr Quantity contacts =
+    measured(dem::quantity::contacts, "", "Contacts of the packing, bonded at the start.");
+inline constexpr Quantity grains = measured(dem::quantity::grains, "", "Grain seeds of the specimen.");
+inline constexpr Quantity fresh_contacts{.id = "fresh_contacts",
+                                         .name = "Contacts that formed later",
+                                         .kind = QuantityKind::count,
+                                         .of_size = true,
+                                         .tests = loaded,
+                                         .meaning = "Linear frictional contacts at the end of the run."};
+inline constexpr Quantity time_step{.id = "time_step",
+                                    .name = "Time step",
+                                    .symbol = "Δt",
+                                    .unit = "s",
+                                    .kind = QuantityKind::diagnostic,
+                                    .tests = loaded,
+                                    .meaning = "Of the leapfrog; solver.time_step_factor of the critical one."};
+
+/// The ways to read crack initiation off a test.
+inline constexpr std::array initiation_readings{
+    Reading{"axial_stiffness", "axial stiffness", initiation_by_stiffness},
+    Reading{"strain_0_1_percent", "stress at 0.1 % strain", stress_at_strain},
+    Reading{"one_percent_of_cracks", "1 % of the cracks at the peak", initiation_by_cracks},
+    Reading{"crack_volumetric_strain", "crack volumetric strain", initiation_by_volume}};
+
+}  // namespace quantity
+
+namespace parameter {
+
+inline constexpr Parameter aspect_ratio{.id = "aspect_ratio",
+                                        .name = "Aspect ratio",
+                                        .symbol = "AR",
+                                        .in_ids = "ar",
+                                        .key = "texture.aspect_ratio",
+                                        .axis = true,
+                                        .words = "the aspect ratio",
+                                        .step = "unit of aspect ratio"};
+inline constexpr Parameter dip{.id = "dip",
+                               .name = "Dip of the long axis",
+                               .symbol = "dip",
+                               .unit = "°",
+                               .in_ids = "dip",
+                               .key = "texture.dip",
+                               .axis = true,
+                               .words = "the dip",
+                               .step = "degree of dip"};
+inline constexpr Parameter seed_scale{.id = "seed_scale",
+                                      .name = "Seed scale",
+                                      .symbol = "seed scale",
+                                      .in_ids = "seed_scale",
+                                      .key = "texture.seed_scale"};
+inline constexpr Parameter growth{
+    .id = "growth", .name = "Rule of growth", .symbol = "growth", .key = "texture.growth"};
+inline constexpr Parameter mineral{.id = "mineral", .name = "Mineral", .key = "texture.only_mineral"};
+inline constexpr Parameter confining_pressure{.id = "confining_pressure",
+                                              .name = "Confining pressure σ₃",
+                                              .symbol = "σ₃",
+                                              .unit = "MPa",
+                                              .in_ids = "sigma3",
+                                              .key = "compression.confining_pressure",
+                                              .axis = true,
+                                              .words = "the confining pressure",
+                                              .step = "MPa of confining pressure"};
+inline constexpr Parameter seed{.id = "seed", .name = "Seed", .symbol = "seed", .in_ids = "seed", .key = "seed"};
+
+}  // namespace parameter
+
+/// All of them, in the order of tables.
+std::span<const Quantity> quantities();
+std::span<const Parameter> parameters();
+
+}  // namespace dem::texture

@@ -1,0 +1,160 @@
+#include "reports/published/terms.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "engine/core/errors.h"
+#include "engine/model/case.h"
+#include "reports/page/text.h"
+#include "reports/published/derived.h"
+
+namespace reports {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::array<const char*, 4> combinations{"quotient", "difference", "sum", "mean"};
+
+// The terms that a term is made of; nullptr for one that is about cases.
+const Json* parts_of(const Json& term) {
+  for (const char* name : combinations) {
+    if (term.contains(name)) return &term.at(name);
+  }
+  return nullptr;
+}
+
+// A term about one case, whose members are parameters.
+bool of_a_case(const Json& term) { return term.contains("of") || term.contains("derived"); }
+
+std::optional<double> seed_of(const CaseResult& one) {
+  const dem::ParameterValue* value = dem::find_value(one.parameters, "seed");
+  const auto* number = value ? std::get_if<double>(value) : nullptr;
+  return number ? std::optional(*number) : std::nullopt;
+}
+
+// "AR 2, σ₃ 10 MPa"
+std::string case_words(const dem::Parameters& named) {
+  std::vector<std::string> words_of;
+  for (const auto& [id, value] : named) {
+    words_of.push_back((id == "test" ? "" : words(id) + " ") + parameter_text(value));
+  }
+  return joined(words_of, ", ");
+}
+
+double combined(const Json& term, const std::vector<double>& parts) {
+  if (term.contains("quotient")) {
+    if (parts.at(1) == 0) throw NotComputed{"division by zero"};
+    return parts.at(0) / parts.at(1);
+  }
+  if (term.contains("difference")) return parts.at(0) - parts.at(1);
+  double sum = 0;
+  for (const double part : parts) sum += part;
+  return term.contains("mean") ? sum / static_cast<double>(parts.size()) : sum;
+}
+
+}  // namespace
+
+Terms::Terms(const StudyResult& study) : study_(study) {
+  if (study.scenario)
+    usual_ = dem::analysis::Usual{study.parameters, dem::usual_values(study.parameters, *study.scenario)};
+  for (const CaseResult& one : study.cases) {
+    const auto seed = seed_of(one);
+    if (seed && std::ranges::find(seeds_, *seed) == seeds_.end()) seeds_.push_back(*seed);
+  }
+}
+
+dem::Parameters Terms::named(const Json& term, const dem::Parameters& at) const {
+  dem::Parameters parameters;
+  for (const auto& [id, value] : term.items()) {
+    if (id == "of" || id == "derived" || id == "times") continue;
+    if (id != "test") (void)dem::find_parameter(study_.parameters, id);
+    parameters.emplace_back(id, value.is_string() ? dem::ParameterValue(value.get<std::string>())
+                                                  : dem::ParameterValue(value.get<double>()));
+  }
+  for (const auto& place : at) {
+    if (!dem::find_value(parameters, place.first)) parameters.push_back(place);
+  }
+  return parameters;
+}
+
+std::vector<const CaseResult*> Terms::cases(const Json& term, const dem::Parameters& at) const {
+  return dem::analysis::select(study_.cases, {named(term, at)}, usual_);
+}
+
+bool Terms::has_cases(const Json& term, const dem::Parameters& at) const {
+  if (const Json* parts = parts_of(term)) {
+    return std::ranges::all_of(*parts, [&](const Json& part) { return has_cases(part, at); });
+  }
+  return !of_a_case(term) || !cases(term, at).empty();
+}
+
+analysis::Estimate Terms::fitted(const Json& term) const {
+  const std::string name = term.at("fit").get<std::string>(), mineral = term.value("mineral", "");
+  const auto found = fitted_value(study_, name, mineral);
+  if (!found) throw NotComputed{"too few pressures to fit " + (mineral.empty() ? "" : mineral + ", ") + name};
+  return *found;
+}
+
+double Terms::value(const Json& term, const dem::Parameters& at, std::optional<double> seed) const {
+  double found = 0;
+  if (const Json* parts = parts_of(term)) {
+    std::vector<double> values;
+    for (const Json& part : *parts) values.push_back(value(part, at, seed));
+    found = combined(term, values);
+  } else if (term.contains("constant")) {
+    found = term.at("constant").get<double>();
+  } else if (term.contains("fit")) {
+    found = fitted(term).value;
+  } else {
+    const auto all = cases(term, at);
+    const auto one = std::ranges::find_if(all, [&](const CaseResult* c) { return !seed || seed_of(*c) == seed; });
+    if (one == all.end()) throw NotComputed{"no case of " + case_words(named(term, at)) + " in this scenario"};
+    const CaseResult& result = **one;
+    if (!result.record) throw NotComputed{"case " + result.id + (result.error.empty() ? " was not run" : " failed")};
+    if (term.contains("derived")) {
+      try {
+        found = derived_value(study_, *result.record, term.at("derived").get<std::string>());
+      } catch (const std::out_of_range&) {
+        throw NotComputed{"case " + result.id + " keeps no such table"};
+      }
+    } else {
+      const std::string id = term.at("of").get<std::string>();
+      const dem::Quantity& quantity = dem::find_quantity(study_.quantities, id);
+      const double* stored = result.record->find_result(id);
+      if (!stored) throw NotComputed{"case " + result.id + " has no result “" + std::string(quantity.name) + "”"};
+      found = *stored * quantity.factor;
+    }
+  }
+  if (!std::isfinite(found)) throw NotComputed{"the result is not a number"};
+  return found * term.value("times", 1.0);
+}
+
+std::vector<double> Terms::values(const Json& term, const dem::Parameters& at) const {
+  std::vector<double> found;
+  if (seeds_.empty()) return {value(term, at, std::nullopt)};
+  for (const double seed : seeds_) {
+    try {
+      found.push_back(value(term, at, seed));
+    } catch (const NotComputed&) {
+      if (seed == seeds_.front()) throw;
+    }
+  }
+  return found;
+}
+
+std::vector<std::pair<std::string, std::string>> results_of(const Json& term) {
+  std::vector<std::pair<std::string, std::string>> found;
+  if (const Json* parts = parts_of(term)) {
+    for (const Json& part : *parts) {
+      for (auto& one : results_of(part)) found.push_back(std::move(one));
+    }
+  } else if (term.contains("of")) {
+    found.emplace_back(term.at("of").get<std::string>(), term.value("test", ""));
+  }
+  return found;
+}
+
+}  // namespace reports

@@ -1,0 +1,52 @@
+#pragma once
+// Terms of published numbers: what of a study a number is compared with.
+//   {"test": "compression", "aspect_ratio": 2, "of": "compressive_strength"}   a result, by the parameters of its case; those
+//                                                 that are not named have the scenario's own values; in the shown unit
+//   {"test": ..., "derived": "crack_angle"}       read off the case's tables (reports/published/derived.h)
+//   {"fit": "peak.m", "mineral": "quartz"}        fitted through several cases
+//   {"sum": [TERM, ...]}  {"mean": [TERM, ...]}  {"difference": [TERM, TERM]}  {"quotient": [TERM, TERM]}  {"constant": 0}
+//   "times": 100 scales any of them.
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/analysis/fits.h"
+#include "reports/figure.h"
+
+namespace reports {
+
+/// Why a term has no value: said in the table instead of a number.
+struct NotComputed {
+  std::string why;
+};
+
+/// Evaluates the terms of one study.
+class Terms {
+ public:
+  explicit Terms(const StudyResult& study);
+
+  /// Whether the study has every case that a term needs, run or not, at a place of the swept parameters.
+  [[nodiscard]] bool has_cases(const nlohmann::json& term, const dem::Parameters& at = {}) const;
+
+  /// The value for every seed, the first one's first. A seed that lacks a case of the term is left out, but for the first.
+  /// Throws NotComputed; nlohmann::json::exception or std::out_of_range for a term that means nothing.
+  [[nodiscard]] std::vector<double> values(const nlohmann::json& term, const dem::Parameters& at = {}) const;
+
+  /// The fit of a term {"fit": ...}.
+  [[nodiscard]] analysis::Estimate fitted(const nlohmann::json& term) const;
+
+ private:
+  [[nodiscard]] double value(const nlohmann::json& term, const dem::Parameters& at, std::optional<double> seed) const;
+  [[nodiscard]] std::vector<const CaseResult*> cases(const nlohmann::json& term, const dem::Parameters& at) const;
+  [[nodiscard]] dem::Parameters named(const nlohmann::json& term, const dem::Parameters& at) const;
+
+  const StudyResult& study_;
+  analysis::Usual usual_;
+  std::vector<double> seeds_;  ///< of the study, in report order
+};
+
+/// The ids of all results that a term asks for, each with the test that it names ("" without).
+std::vector<std::pair<std::string, std::string>> results_of(const nlohmann::json& term);
+
+}  // namespace reports

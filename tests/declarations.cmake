@@ -1,0 +1,2 @@
+dem_test(test_declarations SOURCES unit/test_declarations.cpp LIBRARIES dem_models dem_study dem_reports
+                                   nlohmann_json::nlohmann_json)
