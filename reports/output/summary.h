@@ -5,7 +5,7 @@
 
 #include "reports/output/drawing.h"
 #include "reports/published/published.h"
-#include "reports/output/report.h"
+#include "reports/options.h"
 
 namespace reports {
 
