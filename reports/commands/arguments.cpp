@@ -1,7 +1,9 @@
 #include "reports/commands/arguments.h"
 
+#include <algorithm>
 #include <charconv>
 #include <stdexcept>
+#include <utility>
 
 #include "reports/commands/command.h"
 

@@ -127,7 +127,7 @@ std::string positionals_text(const Command& command, bool endings) {
     } else if (positional.most > 1) {
       word += "...";
     }
-    if (positional.least == 0) word = "[" + word + "]";
+    if (positional.least == 0) word = fmt::format("[{}]", word);
     text += (text.empty() ? "" : " ") + word;
   }
   return text;

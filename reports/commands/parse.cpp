@@ -7,7 +7,6 @@
 #include <charconv>
 #include <cxxopts.hpp>
 #include <filesystem>
-#include <optional>
 
 #include "engine/core/errors.h"
 #include "engine/scenario/suggest.h"
