@@ -1,10 +1,11 @@
-# shellcheck shell=sh disable=SC2154
+# shellcheck shell=sh disable=SC2154,SC2034
 # Shared by ./dem-report and tests/run: Debian packages and the build folder. Sourced, with $root set.
 
-# What a bare Debian 12 needs to build and to run.
+# What a bare Debian 12 needs to build and to run, and what the tests need besides.
 packages="g++ cmake ninja-build pkg-config libvtk9-dev libopenmpi-dev libosmesa6-dev libglew-dev libpng-dev libhdf5-dev
 libtomlplusplus-dev libcxxopts-dev libfmt-dev nlohmann-json3-dev libkainjow-mustache-dev
-doctest-dev tidy weasyprint fonts-dejavu-core poppler-utils"
+weasyprint fonts-dejavu-core"
+test_packages="doctest-dev libeigen3-dev tidy poppler-utils clang-format"
 build="$root/build"
 jobs=$(nproc 2>/dev/null || echo 2)
 
@@ -17,10 +18,11 @@ stop() {
   exit 3
 }
 
+# missing_packages LIST
 missing_packages() {
   # shellcheck disable=SC2086 # the list is meant to be split
-  dpkg-query -W -f='${Package} ${Status}\n' $packages 2>/dev/null |
-    awk -v wanted="$packages" '
+  dpkg-query -W -f='${Package} ${Status}\n' $1 2>/dev/null |
+    awk -v wanted="$1" '
       / install ok installed$/ { have[$1] = 1 }
       END {
         n = split(wanted, names)
@@ -28,9 +30,10 @@ missing_packages() {
       }'
 }
 
+# install_packages LIST
 install_packages() {
   command -v dpkg-query >/dev/null 2>&1 || return 0 # not Debian: CMake says what it does not find
-  missing=$(missing_packages)
+  missing=$(missing_packages "$1")
   [ -n "$missing" ] || return 0
   as_root=
   if [ "$(id -u)" -ne 0 ]; then

@@ -1,7 +1,6 @@
 # Pictures against tests/golden/NAME.png; candidates and differences of failed ones lie in BUILD/golden.
 add_library(dem_golden STATIC support/golden.cpp)
 target_link_libraries(dem_golden PUBLIC dem_render doctest::doctest PRIVATE dem_warnings)
-target_include_directories(dem_golden PUBLIC ${PROJECT_SOURCE_DIR})
 target_compile_definitions(dem_golden PRIVATE DEM_GOLDEN_BASELINES="${PROJECT_SOURCE_DIR}/tests/golden"
                                               DEM_GOLDEN_OUT="${PROJECT_BINARY_DIR}/golden")
 

@@ -1,8 +1,6 @@
 # The report, from made-up records: verdicts, summary, figures, page and PDF.
-find_package(nlohmann_json REQUIRED)
 add_library(dem_synthetic STATIC reports/synthetic.cpp)
 target_link_libraries(dem_synthetic PUBLIC dem_reports PRIVATE dem_texture dem_warnings)
-target_include_directories(dem_synthetic PUBLIC ${PROJECT_SOURCE_DIR})
 target_compile_definitions(dem_synthetic PRIVATE DEM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 
 dem_test(test_report_parts SOURCES reports/test_parts.cpp LIBRARIES dem_synthetic nlohmann_json::nlohmann_json)

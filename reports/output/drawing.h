@@ -1,12 +1,13 @@
 #pragma once
 // Figures of a study, drawn: contents made by the figures, pictures and data written as files.
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "render/draw.h"
 #include "reports/figure.h"
-#include "reports/output/report.h"
+#include "reports/options.h"
 
 namespace reports {
 
@@ -48,6 +49,9 @@ struct ChosenFigures {
 };
 /// Throws dem::InputError when `only` is no figure of this model.
 ChosenFigures chosen_figures(const StudyResult& study, const std::string& only);
+
+/// The canvas of this process, made when first asked for: processes forked to draw must not inherit one.
+using CanvasSource = std::function<render::Canvas&()>;
 
 struct Drawings {
   std::vector<DrawnFigure> figures;

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "reports/output/drawing.h"
-#include "reports/output/report.h"
 #include "reports/published/published.h"
+#include "reports/options.h"
 
 namespace reports {
 

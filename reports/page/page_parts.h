@@ -7,8 +7,8 @@
 #include <kainjow/mustache.hpp>
 
 #include "reports/output/drawing.h"
-#include "reports/output/report.h"
 #include "reports/published/published.h"
+#include "reports/options.h"
 
 namespace reports {
 

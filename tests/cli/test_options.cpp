@@ -1,27 +1,54 @@
 // The options of the command line, without running anything.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <set>
+
 #include "engine/core/errors.h"
-#include "reports/commands/cli.h"
+#include "engine/core/files.h"
+#include "reports/commands/help_text.h"
+#include "reports/commands/parse.h"
+#include "reports/commands/run.h"
+#include "reports/commands/table.h"
+#include "tests/support/scratch.h"
 
 namespace {
 
-std::string refusal(const std::vector<std::string>& arguments) {
+using Texts = std::vector<std::string>;
+
+/// The command that is performed for these words, and with what.
+cli::Call call(const Texts& words) { return cli::parse(cli::commands(), words); }
+
+std::string verb(const Texts& words) { return call(words).command->name; }
+
+cli::RunRequest request(const Texts& words) {
+  const cli::Call made = call(words);
+  REQUIRE(made.command->name == "run");
+  return cli::run_request(made.arguments);
+}
+
+std::string refusal(const Texts& words) {
   try {
-    cli::parse(arguments);
+    const cli::Call made = call(words);
+    if (made.command->name == "run") cli::run_request(made.arguments);
   } catch (const dem::InputError& error) {
     return error.what();
   }
   return "accepted";
 }
 
-using Texts = std::vector<std::string>;
+void says(const Texts& words, const std::string& part) {
+  const std::string message = refusal(words);
+  CAPTURE(message);
+  CHECK(message.find(part) != std::string::npos);
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 
 TEST_CASE("defaults") {
-  const cli::CommandLine line = cli::parse({"a.toml"});
-  CHECK(line.action == cli::Action::run);
+  const cli::RunRequest line = request({"a.toml"});
   CHECK(line.scenarios == Texts{"a.toml"});
   CHECK(line.output == "out");
   CHECK(line.scale == "draft");
@@ -34,27 +61,27 @@ TEST_CASE("defaults") {
 }
 
 TEST_CASE("every option, in both spellings, between scenarios") {
-  const cli::CommandLine line = cli::parse({"a.toml",
-                                            "-o",
-                                            "results",
-                                            "--scale=paper",
-                                            "--threads",
-                                            "3",
-                                            "--seed",
-                                            "7",
-                                            "--only=stress_strain",
-                                            "--case",
-                                            "compression_ar_2",
-                                            "--set",
-                                            "sweep.aspect_ratio=[1, 2]",
-                                            "--set",
-                                            "title=\"a,b\"",
-                                            "--report-only",
-                                            "--format",
-                                            "html",
-                                            "--quiet",
-                                            "--strict",
-                                            "b.toml"});
+  const cli::RunRequest line = request({"a.toml",
+                                        "-o",
+                                        "results",
+                                        "--scale=paper",
+                                        "--threads",
+                                        "3",
+                                        "--seed",
+                                        "7",
+                                        "--only=stress_strain",
+                                        "--case",
+                                        "compression_ar_2",
+                                        "--set",
+                                        "sweep.aspect_ratio=[1, 2]",
+                                        "--set",
+                                        "title=\"a,b\"",
+                                        "--report-only",
+                                        "--format",
+                                        "html",
+                                        "--quiet",
+                                        "--strict",
+                                        "b.toml"});
   CHECK(line.scenarios == Texts{"a.toml", "b.toml"});
   CHECK(line.output == "results");
   CHECK(line.scale == "paper");
@@ -67,32 +94,27 @@ TEST_CASE("every option, in both spellings, between scenarios") {
   CHECK_FALSE(line.pdf);
   CHECK(line.quiet);
   CHECK(line.strict);
-  CHECK(cli::parse({"--output=x", "--force", "a.toml"}).force);
-  CHECK(cli::parse({"-ox", "a.toml"}).output == "x");
-  CHECK(cli::parse({"a.toml", "--format=pdf"}).pdf);
-  CHECK(cli::parse({"--set", "seed=-1", "a.toml"}).overrides == Texts{"seed=-1"});
+  CHECK(request({"--output=x", "--force", "a.toml"}).force);
+  CHECK(request({"-ox", "a.toml"}).output == "x");
+  CHECK(request({"a.toml", "--format=pdf"}).pdf);
+  CHECK(request({"--set", "seed=-1", "a.toml"}).overrides == Texts{"seed=-1"});
 }
 
 TEST_CASE("what needs no scenario") {
-  CHECK(cli::parse({"--help"}).action == cli::Action::help);
-  CHECK(cli::parse({"-h"}).action == cli::Action::help);
-  CHECK(cli::parse({"--version"}).action == cli::Action::version);
-  CHECK(cli::parse({"--list-figures"}).action == cli::Action::list_figures);
-  CHECK(cli::parse({"--explain-keys"}).action == cli::Action::explain_keys);
+  CHECK(verb({"--help"}) == "help");
+  CHECK(verb({"-h"}) == "help");
+  CHECK(verb({"--version"}) == "version");
+  CHECK(verb({"--list-figures"}) == "figures");
+  CHECK(verb({"--explain-keys"}) == "keys");
   for (const char* option :
        {"--output", "--scale", "--threads", "--seed", "--only", "--case", "--set", "--report-only", "--force",
         "--format", "--list-figures", "--explain-keys", "--quiet", "--version", "--strict", "--help"}) {
     CAPTURE(option);
-    CHECK(cli::help().find(option) != std::string::npos);
+    CHECK(has(cli::program_help(cli::commands()), option));
   }
 }
 
 TEST_CASE("wrong usage is told with what would be right") {
-  const auto says = [](const Texts& arguments, const std::string& part) {
-    const std::string message = refusal(arguments);
-    CAPTURE(message);
-    CHECK(message.find(part) != std::string::npos);
-  };
   says({}, "no scenario is given");
   says({"--quiet"}, "no scenario is given");
   says({"a.toml", "--treads", "2"}, "--treads: unknown option; did you mean '--threads'?");
@@ -113,10 +135,93 @@ TEST_CASE("wrong usage is told with what would be right") {
 }
 
 TEST_CASE("the command that makes a report again names no folder of this machine") {
-  const cli::CommandLine line = cli::parse({"/home/me/a b.toml", "-o", "/tmp/x", "--threads", "2", "--scale", "paper",
-                                            "--set", "specimen.diameter=\"10 mm\"", "--seed", "3", "--quiet"});
+  const cli::RunRequest line = request({"/home/me/a b.toml", "-o", "/tmp/x", "--threads", "2", "--scale", "paper",
+                                        "--set", "specimen.diameter=\"10 mm\"", "--seed", "3", "--quiet"});
   CHECK(cli::command_text(line, "/home/me/a b.toml") ==
         "dem-report 'a b.toml' --scale paper --set 'specimen.diameter=\"10 mm\"' --set seed=3");
-  CHECK(cli::command_text(cli::parse({"scenarios/a.toml"}), "scenarios/a.toml") == "dem-report scenarios/a.toml");
-  CHECK(cli::command_text(cli::parse({"../a.toml"}), "../a.toml") == "dem-report a.toml");
+  CHECK(cli::command_text(request({"scenarios/a.toml"}), "scenarios/a.toml") == "dem-report scenarios/a.toml");
+  CHECK(cli::command_text(request({"../a.toml"}), "../a.toml") == "dem-report a.toml");
+}
+
+TEST_CASE("verbs: run is the default one, each says what it takes") {
+  CHECK(verb({"a.toml"}) == "run");
+  CHECK(verb({"run", "a.toml"}) == "run");
+  CHECK(request({"run", "a.toml", "--scale", "smoke"}).scale == "smoke");
+  CHECK(request({"./run"}).scenarios == Texts{"./run"});
+  CHECK(request({"--", "run"}).scenarios == Texts{"run"});
+  CHECK(request({"a.toml", "keys"}).scenarios == Texts{"a.toml", "keys"});
+  CHECK(verb({"figures"}) == "figures");
+  CHECK(verb({"keys"}) == "keys");
+  CHECK(call({"keys", "grain_texture", "--markdown"}).arguments.word("MODEL") == "grain_texture");
+  CHECK(call({"keys", "grain_texture", "--markdown"}).arguments.has("markdown"));
+  CHECK(verb({"help"}) == "help");
+  CHECK(call({"help", "keys"}).arguments.word("VERB") == "keys");
+  CHECK(verb({"version"}) == "version");
+
+  says({"run"}, "no scenario is given; write dem-report run SCENARIO.toml, or see dem-report run --help");
+  says({"keys", "--quiet"}, "--quiet: unknown option; see dem-report keys --help");
+  says({"keys", "--markdwon"}, "did you mean '--markdown'?");
+  says({"keys", "grain_textur"}, "grain_textur: unknown model; did you mean 'grain_texture'? the models are: ");
+  says({"keys", "grain_texture", "lattice"}, "lattice: one argument too many; write dem-report keys [MODEL]");
+  says({"figures", "a.toml"}, "a.toml: this command takes no argument; write dem-report figures");
+}
+
+TEST_CASE("a first word that is neither a file nor a verb: both may have been meant") {
+  says({"figurs"}, "figurs: there is no such scenario file, and no such verb");
+  says({"figurs"}, "give the path of its file (.toml); did you mean 'figures'? the verbs are: run, figures, keys");
+  says({"--quiet", "figurs"}, "no such verb");
+  says({"--quiet", "figures"}, "a verb comes before its options; write dem-report figures ...");
+  CHECK(refusal({"nowhere.toml"}) == "accepted");  // the reader of scenarios tells what is there
+  CHECK(refusal({"some/where"}) == "accepted");
+
+  const test::Scratch folder;
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  dem::write_file("figurs", "model = 1");
+  dem::write_file("granite.toml", "model = 1");
+  CHECK(request({"figurs"}).scenarios == Texts{"figurs"});
+  says({"granite"}, "did you mean the file 'granite.toml'?");
+  std::filesystem::current_path(before);
+}
+
+TEST_CASE("help of a command names all that it takes") {
+  for (const cli::Command& command : cli::commands()) {
+    CAPTURE(command.name);
+    CHECK(verb({command.name, "--help"}) == "help");
+    CHECK(call({command.name, "-h"}).arguments.word("VERB") == command.name);
+    const std::string help = cli::command_help(command);
+    CHECK(has(help, "Usage:\n  dem-report " + command.name + " [options]"));
+    for (const cli::Option& option : command.options) CHECK(has(help, "--" + option.name));
+    for (const cli::Positional& positional : command.positionals) CHECK(has(help, "\n  " + positional.name));
+    for (const char* code : {"\n  0  ", "\n  2  ", "\n  3  "}) CHECK(has(help, code));
+    CHECK(has(cli::program_help(cli::commands()), "\n  " + command.name));
+  }
+  CHECK(has(cli::command_help(*cli::find_command(cli::commands(), "run")), "smoke, draft, paper or high"));
+  // Help is shown however wrong the rest is.
+  CHECK(verb({"--scale", "huge", "--help"}) == "help");
+  CHECK(verb({"--list-figures", "--version"}) == "version");
+}
+
+TEST_CASE("the declarations are sound") {
+  std::set<std::string> verbs;
+  for (const cli::Command& command : cli::commands()) {
+    CAPTURE(command.name);
+    CHECK(verbs.insert(command.name).second);
+    CHECK(static_cast<bool>(command.perform));
+    CHECK_FALSE(command.summary.empty());
+    std::set<std::string> names = {"help", "h"};
+    for (const cli::Option& option : command.options) {
+      CAPTURE(option.name);
+      CHECK(option.name.size() > 1);
+      CHECK(names.insert(option.name).second);
+      if (option.letter != 0) CHECK(names.insert(std::string(1, option.letter)).second);
+      CHECK_FALSE(option.help.empty());
+      CHECK((option.kind == cli::OptionKind::flag) == option.value.empty());
+      if (!option.verb.empty()) CHECK(cli::find_command(cli::commands(), option.verb) != nullptr);
+      if (option.kind == cli::OptionKind::list) CHECK_FALSE(option.choices.empty());
+    }
+    for (std::size_t i = 0; i + 1 < command.positionals.size(); ++i) {
+      CHECK(command.positionals[i].most != cli::Positional::any_number);
+    }
+  }
 }

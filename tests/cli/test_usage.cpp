@@ -1,6 +1,7 @@
 // The program as used, with wrong input: exit codes, what is said, and that nothing is written.
 #include <doctest/doctest.h>
 
+#include <cstdlib>
 #include <fstream>
 
 #include "engine/core/files.h"
@@ -33,17 +34,36 @@ TEST_CASE("help, version, figures and keys go to stdout and exit with 0") {
 
 TEST_CASE("the reference of the scenario keys is what the program says of them") {
   const test::Scratch folder;
-  const std::string said = test::run_program(folder.path(), {"--explain-keys"}).out;
-  const std::string page =
-      "# Scenario keys\n\nThe output of `dem-report --explain-keys`. Quantities are written with their unit, as in\n"
-      "`diameter = \"25 mm\"`.\n\n```text\n" +
-      said + "```\n";
+  const std::string page = test::run_program(folder.path(), {"keys", "--markdown"}).out;
+  CHECK(has(page, "\n```text\n" + test::run_program(folder.path(), {"--explain-keys"}).out + "```\n"));
   const std::filesystem::path kept = DEM_SOURCE_DIR "/docs/scenario-keys.md";
   if (std::filesystem::exists(kept) && dem::read_file(kept) == page) return;
-  const std::filesystem::path fresh = std::filesystem::current_path() / "scenario-keys.md";
-  dem::write_file(fresh, page);
-  FAIL_CHECK(kept.string() << " is not what --explain-keys says; to refresh it: cp " << fresh.string() << " "
+  FAIL_CHECK(kept.string() << " is not what the program says; to refresh it: " DEM_PROGRAM " keys --markdown > "
                            << kept.string());
+}
+
+TEST_CASE("verbs do what the flags of the same meaning do") {
+  const test::Scratch folder;
+  const auto out = [&](const std::vector<std::string>& words) { return test::run_program(folder.path(), words).out; };
+  CHECK(out({"figures"}) == out({"--list-figures"}));
+  CHECK(out({"keys"}) == out({"--explain-keys"}));
+  CHECK(out({"version"}) == out({"--version"}));
+  CHECK(out({"help"}) == out({"--help"}));
+  CHECK(out({"help", "run"}) == out({"run", "--help"}));
+  const std::string one = out({"keys", "grain_texture"});
+  CHECK(has(one, "Keys of every scenario"));
+  CHECK(has(one, "Keys of model = \"grain_texture\""));
+  CHECK(one.size() < out({"keys"}).size());
+}
+
+TEST_CASE("assets that are not there: exit code 3 before anything is written, and where they were looked for") {
+  const test::Scratch folder;
+  ::setenv("DEM_REPORT_ASSETS", (folder.path() / "nowhere").c_str(), 1);
+  const test::Outcome outcome = test::run_program(folder.path(), {scenario, "--scale", "smoke", "--format", "html"});
+  ::unsetenv("DEM_REPORT_ASSETS");
+  CHECK(outcome.code == 3);
+  CHECK(has(outcome.err, "DEM_REPORT_ASSETS names " + (folder.path() / "nowhere").string()));
+  CHECK(std::filesystem::is_empty(folder.path()));
 }
 
 TEST_CASE("wrong usage and wrong input exit with 2, say what would be right, and write nothing") {
@@ -58,6 +78,10 @@ TEST_CASE("wrong usage and wrong input exit with 2, say what would be right, and
       {{}, "no scenario is given; write dem-report SCENARIO.toml"},
       {{"--treads", "2", scenario}, "did you mean '--threads'?"},
       {{"nowhere.toml"}, "nowhere.toml: there is no such file; the scenarios there are: typo.toml"},
+      {{"run", "nowhere.toml"}, "nowhere.toml: there is no such file; the scenarios there are: typo.toml"},
+      {{"nowhere"}, "nowhere: there is no such scenario file, and no such verb"},
+      {{"typo"}, "did you mean the file 'typo.toml'?"},
+      {{"help", "figure"}, "figure: unknown verb; did you mean 'figures'?"},
       {{"folder"}, "folder: this is a folder, not a scenario"},
       {{"typo.toml"}, "typo.toml:2:1: seeds: unknown key; did you mean 'seed'?"},
       {{scenario, "--scale", "high"}, "this scenario has no scale 'high'; it has: smoke, draft, paper"},

@@ -1,0 +1,38 @@
+#pragma once
+// From the outcomes of a study to its report, and to what a person is told about it.
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/study/study.h"
+#include "render/draw.h"
+
+namespace cli {
+
+struct ReporterOptions {
+  std::filesystem::path output;  ///< the folder that holds the folders of the studies
+  std::filesystem::path assets;
+  bool html = true;
+  bool pdf = true;
+  std::string figure;   ///< draw only this one; "": all
+  int threads = 1;      ///< processes to draw in
+  bool quiet = false;   ///< do not name the files on stdout
+  bool strict = false;  ///< a published number that is missed is not well
+};
+
+/// Makes reports one after the other, with one canvas for all.
+class Reporter {
+ public:
+  explicit Reporter(ReporterOptions options) : options_(std::move(options)) {}
+
+  /// True when every case that was asked for has a record, and every check holds; else stderr says what does not.
+  /// `command` is how to make the report again. Throws dem::EnvironmentError as reports::make_report().
+  bool report(const dem::Study& study, const std::vector<dem::CaseOutcome>& outcomes, const std::string& command);
+
+ private:
+  ReporterOptions options_;
+  std::optional<render::Canvas> canvas_;  // made when first needed: a process forked to draw must not inherit one
+};
+
+}  // namespace cli

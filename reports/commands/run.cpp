@@ -1,0 +1,167 @@
+// dem-report run: scenarios -> simulation -> reports.
+#include "reports/commands/run.h"
+
+#include <algorithm>
+#include <iostream>
+
+#include "engine/core/errors.h"
+#include "engine/study/study.h"
+#include "reports/commands/assets.h"
+#include "reports/commands/machine.h"
+#include "reports/commands/reporter.h"
+#include "reports/commands/signals.h"
+#include "reports/commands/study_options.h"
+#include "reports/commands/terminal.h"
+#include "reports/commands/verbs.h"
+#include "reports/output/drawing.h"
+#include "reports/published/papers.h"
+
+namespace cli {
+namespace {
+
+/// Everything that can be wrong with the input is found here, before anything is written.
+std::vector<dem::Study> checked_studies(const RunRequest& request) {
+  std::vector<dem::Study> studies = read_studies(request.scenarios, request.scale, request.overrides);
+  for (const dem::Study& study : studies) {
+    dem::check_case(study, request.only_case);
+    reports::chosen_figures({&study.scenario, {}}, request.figure);
+    reports::check_topics(study.scenario, assets_folder() / "papers");
+  }
+  return studies;
+}
+
+dem::StudyOptions study_options(const RunRequest& request) {
+  dem::StudyOptions options;
+  options.output = request.output;
+  options.threads = request.threads;
+  options.memory = memory_bytes();
+  options.only_case = request.only_case;
+  options.report_only = request.report_only;
+  options.force = request.force;
+  options.stop = &stop_asked();
+  return options;
+}
+
+ReporterOptions reporter_options(const RunRequest& request) {
+  ReporterOptions options;
+  options.output = request.output;
+  options.assets = assets_folder();
+  options.html = request.html;
+  options.pdf = request.pdf;
+  options.figure = request.figure;
+  options.threads = request.threads;
+  options.quiet = request.quiet;
+  options.strict = request.strict;
+  return options;
+}
+
+int perform(const Arguments& arguments) {
+  const RunRequest request = run_request(arguments);
+  const std::vector<dem::Study> studies = checked_studies(request);
+  if (request.pdf) require_weasyprint();
+  Reporter reporter(reporter_options(request));
+  listen_to_signals();
+  dem::ProgressPrinter progress = progress_printer(request.quiet);
+  bool well = true;
+  try {
+    for (const dem::Study& study : studies) {
+      progress.start(static_cast<int>(study.cases.size()));
+      const auto outcomes = dem::run_study(study, study_options(request), progress_listener(progress));
+      progress.say("drawing the figures and the report");
+      well = reporter.report(study, outcomes, command_text(request, study.scenario.file())) && well;
+    }
+  } catch (const dem::Interrupted&) {
+    progress.clear();
+    std::cerr << "dem-report: stopped; finished cases and the state of those at hand are kept in "
+              << request.output.string() << ": give the same command to go on\n";
+    return exit_code_of_signal();
+  }
+  return well ? 0 : 1;
+}
+
+std::vector<Option> options() {
+  return {
+      output_option(),
+      scale_option(),
+      threads_option(),
+      seed_option(),
+      {.name = "only", .value = "FIGURE", .help = "draw only this figure", .kind = OptionKind::text},
+      {.name = "case", .value = "ID", .help = "run only this case", .kind = OptionKind::text},
+      set_option(),
+      {.name = "report-only", .help = "draw from the records that are there, simulate nothing"},
+      {.name = "force", .help = "simulate also the cases whose record is current"},
+      {.name = "format",
+       .value = "LIST",
+       .help = "what to make",
+       .kind = OptionKind::list,
+       .standard = "html,pdf",
+       .choices = {"html", "pdf"}},
+      {.name = "strict", .help = "exit with 1 also when a published number is missed"},
+      quiet_option(),
+      {.name = "explain-keys", .help = "the same as dem-report keys", .verb = "keys"},
+      {.name = "list-figures", .help = "the same as dem-report figures", .verb = "figures"},
+      {.name = "version", .help = "print the version", .verb = "version"},
+  };
+}
+
+std::vector<ExitCode> exit_codes() {
+  std::vector<ExitCode> codes = usual_exit_codes();
+  codes.insert(codes.begin() + 1, {"1",
+                                   "a case or one of its checks failed (with --strict also: a published number "
+                                   "was missed); the report is made all the same"});
+  codes.push_back({"129, 130, 143", "stopped by a signal: the same command goes on where it stopped"});
+  return codes;
+}
+
+}  // namespace
+
+RunRequest run_request(const Arguments& arguments) {
+  RunRequest request;
+  request.scenarios = arguments.words("SCENARIO");
+  request.output = arguments.text("output");
+  request.scale = arguments.text("scale");
+  request.threads = threads(arguments);
+  request.overrides = overrides(arguments);
+  request.figure = arguments.text("only");
+  request.only_case = arguments.text("case");
+  const auto& formats = arguments.texts("format");
+  request.html = std::ranges::find(formats, "html") != formats.end();
+  request.pdf = std::ranges::find(formats, "pdf") != formats.end();
+  request.report_only = arguments.has("report-only");
+  request.force = arguments.has("force");
+  request.quiet = arguments.has("quiet");
+  request.strict = arguments.has("strict");
+  if (request.report_only && request.force) {
+    throw dem::InputError({}, "--report-only", "does not go with --force", "choose one of them");
+  }
+  return request;
+}
+
+std::string command_text(const RunRequest& request, const std::string& scenario) {
+  const std::filesystem::path path(scenario);
+  const bool of_this_machine = path.is_absolute() || path.lexically_normal().string().starts_with("..");
+  std::string text = "dem-report " + shell_quoted((of_this_machine ? path.filename() : path).string());
+  if (request.scale != "draft") text += " --scale " + request.scale;
+  for (const std::string& override : request.overrides) text += " --set " + shell_quoted(override);
+  if (!request.figure.empty()) text += " --only " + shell_quoted(request.figure);
+  if (!request.only_case.empty()) text += " --case " + shell_quoted(request.only_case);
+  return text;
+}
+
+Command verbs::run() {
+  return {.name = "run",
+          .summary = "simulate the cases of scenarios and report them",
+          .details =
+              "A finished case is kept until something that it depends on changes; a run that is cut off goes "
+              "on from its last checkpoint. Results and reports lie in DIR/NAME.SCALE.",
+          .positionals = {scenario_positional()},
+          .options = options(),
+          .examples = {{"dem-report scenarios/ldb_aspect_ratio.toml", "simulate and report at draft scale, in minutes"},
+                       {"dem-report scenarios/ldb_aspect_ratio.toml --scale paper -o results --threads 2",
+                        "the published size, in another folder"},
+                       {"dem-report scenarios/ldb_aspect_ratio.toml --report-only", "draw again, simulate nothing"}},
+          .exit_codes = exit_codes(),
+          .perform = perform};
+}
+
+}  // namespace cli

@@ -1,0 +1,33 @@
+#pragma once
+// What `dem-report run` was asked for; on its own so that it can be tested without running anything.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "reports/commands/arguments.h"
+
+namespace cli {
+
+struct RunRequest {
+  std::vector<std::string> scenarios;
+  std::filesystem::path output;
+  std::string scale;
+  int threads = 1;
+  std::vector<std::string> overrides;  ///< of --set, then --seed, as "key=value"
+  std::string figure;                  ///< --only; "": all
+  std::string only_case;               ///< --case; "": all
+  bool report_only = false;
+  bool force = false;
+  bool html = true;
+  bool pdf = true;
+  bool quiet = false;
+  bool strict = false;
+};
+
+/// Throws dem::InputError when options do not go together.
+RunRequest run_request(const Arguments& arguments);
+
+/// How to make a report again: the options that shape it, without folders of this machine.
+std::string command_text(const RunRequest& request, const std::string& scenario);
+
+}  // namespace cli

@@ -1,0 +1,101 @@
+#include "reports/commands/study_options.h"
+
+#include <algorithm>
+#include <set>
+#include <thread>
+
+#include "engine/core/errors.h"
+
+namespace cli {
+
+Positional scenario_positional() {
+  return {.name = "SCENARIO", .help = "scenario files", .ending = ".toml", .most = Positional::any_number};
+}
+
+Option output_option() {
+  return {.name = "output",
+          .letter = 'o',
+          .value = "DIR",
+          .help = "folder for everything that is written",
+          .kind = OptionKind::folder,
+          .standard = "out"};
+}
+
+Option scale_option() {
+  return {.name = "scale",
+          .value = "SCALE",
+          .help = "size of the study",
+          .kind = OptionKind::text,
+          .standard = "draft",
+          .choices = {"smoke", "draft", "paper", "high"}};
+}
+
+Option threads_option() {
+  return {.name = "threads",
+          .value = "N",
+          .help = "threads to simulate with, all of the machine when not given; results do not depend on it",
+          .kind = OptionKind::number,
+          .low = 1,
+          .high = 1024};
+}
+
+Option seed_option() {
+  return {.name = "seed",
+          .value = "N",
+          .help = "seed of the random numbers, in the place of the scenario's",
+          .kind = OptionKind::number,
+          .low = 0,
+          .high = std::uint64_t{1} << 53};
+}
+
+Option set_option() {
+  return {.name = "set",
+          .value = "KEY=VALUE",
+          .help = "override a scenario key, in TOML: --set 'specimen.diameter=\"10 mm\"'",
+          .kind = OptionKind::text,
+          .repeatable = true};
+}
+
+Option quiet_option() { return {.name = "quiet", .help = "no progress, only errors"}; }
+
+int threads(const Arguments& arguments) {
+  if (arguments.has("threads")) return static_cast<int>(arguments.number("threads"));
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+std::vector<std::string> overrides(const Arguments& arguments) {
+  std::vector<std::string> all = arguments.texts("set");
+  if (arguments.has("seed")) all.push_back("seed=" + std::to_string(arguments.number("seed")));
+  return all;
+}
+
+std::vector<dem::Study> read_studies(std::span<const std::string> files, const std::string& scale,
+                                     std::span<const std::string> overrides) {
+  std::vector<dem::Study> studies;
+  std::set<std::string> folders;
+  for (const std::string& file : files) {
+    dem::Study study = dem::read_study(file, scale, overrides, dem::models());
+    if (!folders.insert(study.folder()).second) {
+      throw dem::InputError(dem::Location{file, 0, 0}, {}, "another scenario of the same name is given",
+                            "run them one by one, with different --output folders");
+    }
+    studies.push_back(std::move(study));
+  }
+  return studies;
+}
+
+std::string shell_quoted(const std::string& text) {
+  const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-/=+,:%";
+  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
+  std::string quoted = "'";
+  for (const char c : text) {
+    if (c == '\'') {
+      quoted += "'\\''";
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + "'";
+}
+
+}  // namespace cli

@@ -1,0 +1,34 @@
+#pragma once
+// Options that several commands share, and the studies that they ask for.
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/study/study.h"
+#include "reports/commands/command.h"
+
+namespace cli {
+
+Positional scenario_positional();  ///< SCENARIO..., one or more
+
+Option output_option();   ///< -o, --output DIR
+Option scale_option();    ///< --scale SCALE
+Option threads_option();  ///< --threads N
+Option seed_option();     ///< --seed N
+Option set_option();      ///< --set KEY=VALUE, repeatable
+Option quiet_option();    ///< --quiet
+
+/// --threads; the threads of the machine when it is not given.
+int threads(const Arguments& arguments);
+
+/// The values of --set, then of --seed, as "key=value": the last one of a key counts.
+std::vector<std::string> overrides(const Arguments& arguments);
+
+/// Reads and checks scenarios before anything is written. Throws dem::InputError, also when two would share a folder.
+std::vector<dem::Study> read_studies(std::span<const std::string> files, const std::string& scale,
+                                     std::span<const std::string> overrides);
+
+/// `text` as one word of a shell.
+std::string shell_quoted(const std::string& text);
+
+}  // namespace cli

@@ -1,0 +1,15 @@
+#include "reports/commands/table.h"
+
+#include "reports/commands/verbs.h"
+
+namespace cli {
+
+std::span<const Command> commands() {
+  static const std::vector<Command> table = {
+      verbs::run(),  //
+      verbs::figures(), verbs::keys(), verbs::help(), verbs::version(),
+  };
+  return table;
+}
+
+}  // namespace cli

@@ -1,0 +1,13 @@
+#pragma once
+// The commands of the program, one function and one file each; table.cpp lists them.
+#include "reports/commands/command.h"
+
+namespace cli::verbs {
+
+Command run();      ///< run.cpp
+Command figures();  ///< figures.cpp
+Command keys();     ///< keys.cpp
+Command help();     ///< help.cpp
+Command version();  ///< version.cpp
+
+}  // namespace cli::verbs

@@ -1,0 +1,26 @@
+#pragma once
+// What a report is made from besides the records: its options, and the facts of the run.
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace reports {
+
+struct ReportOptions {
+  std::filesystem::path folder;  ///< out/NAME.SCALE; made when missing
+  std::filesystem::path assets;  ///< the folder with page template, style sheet, published numbers, choices, citations
+  bool html = true;              ///< write report.html
+  bool pdf = true;               ///< write report.pdf (needs weasyprint)
+  std::string only;              ///< draw only this figure; "": all that belong to the scenario
+  std::string command;           ///< how to make it again, one line without paths of this machine: shown in the report
+  std::string engine_version;    ///< "0.1.0"
+  int workers = 1;               ///< processes to draw in; the same bytes with any number
+};
+
+/// What varies between runs of the same input, for run.json: {"host", ...}, {"threads", 2.0}; a dot nests ("wall_s.total").
+/// The GL renderer and the time spent on the report are added.
+using RunFacts = std::vector<std::pair<std::string, std::variant<double, std::string>>>;
+
+}  // namespace reports

@@ -1,2 +1,0 @@
-add_executable(bench_lattice bench/bench_lattice.cpp)
-target_link_libraries(bench_lattice PRIVATE dem_lattice dem_warnings)

@@ -1,3 +1,0 @@
-add_executable(bench_render bench/bench_render.cpp)
-target_link_libraries(bench_render PRIVATE dem_warnings)
-dem_link_render(bench_render)
