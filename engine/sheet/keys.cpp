@@ -163,7 +163,7 @@ std::vector<Key> declare() {
        .help = "strains at which fields are kept; the end is always kept"},
       {.path = "solvers",
        .type = KeyType::texts,
-       .choices = {"converged", "as_published"},
+       .choices = {"converged", "historical"},
        .standard = "[\"converged\"]",
        .help = "a case for each"},
       {.path = "solver.tolerance",
@@ -171,16 +171,16 @@ std::vector<Key> declare() {
        .high = 1e-2,
        .standard = "1e-8",
        .help = "converged: largest unbalanced over largest spring force"},
-      {.path = "published.relaxation",
+      {.path = "historical.relaxation",
        .low = 0.01,
        .high = 1.99,
        .standard = "0.9",
-       .help = "as_published: share of (sum F)/(sum k) that a particle moves"},
-      {.path = "published.stop",
+       .help = "historical: share of (sum F)/(sum k) that a particle moves"},
+      {.path = "historical.stop",
        .low = 1e-15,
        .high = 1,
        .standard = "1.4e-7",
-       .help = "as_published: largest move that counts as equilibrium, box widths"},
+       .help = "historical: largest move that counts as equilibrium, box widths"},
       {.path = "sweep.spread",
        .type = KeyType::reals,
        .low = 0,
@@ -260,8 +260,8 @@ Settings read_settings(const Scenario& s) {
   r.solver = s.texts("solvers").front();
   if (r.solver == "converged") r.loading.work_tolerance = s.real("loading.work_tolerance");
   r.converged.tolerance = s.real("solver.tolerance");
-  r.published.relaxation = s.real("published.relaxation");
-  r.published.stop = s.real("published.stop");
+  r.historical.relaxation = s.real("historical.relaxation");
+  r.historical.stop = s.real("historical.stop");
   if (r.loading.kind == LoadingKind::growth) {
     const bool grows =
         std::any_of(r.rules.begin(), r.rules.end(), [](const auto& rule) { return rule.properties.growth > 1; });

@@ -39,7 +39,7 @@ std::vector<CaseSpec> cases(const Scenario& s) {
       if (!main) spec.id += "_" + solver;
       if (std::any_of(all.begin(), all.end(), [&](const CaseSpec& c) { return c.id == spec.id; })) continue;
       std::vector<std::string> prefixes{"sheet.", "grains.", "rule", "disorder.", "loading.", "solvers"};
-      prefixes.emplace_back(solver == "converged" ? "solver." : "published.");
+      prefixes.emplace_back(solver == "converged" ? "solver." : "historical.");
       spec.content = fmt::format("{}\nseed = {}\n{}", version, s.seed(), one.canonical(prefixes));
       // A broken file, a map that does not cover the sheet or has too few grains are found before anything runs.
       if (all.empty() && (settings.source == "file" || settings.expanding > 0)) {
@@ -99,7 +99,7 @@ class Run {
     if (settings_.solver == "converged") {
       converged_ = std::make_unique<ConvergedSolver>(specimen_.sheet, settings_.converged);
     } else {
-      published_ = std::make_unique<PublishedSolver>(settings_.published, threads_);
+      historical_ = std::make_unique<HistoricalSolver>(settings_.historical, threads_);
     }
     experiment_ = std::make_unique<Experiment>(specimen_.sheet, solver(), settings_.loading, threads_);
   }
@@ -132,7 +132,7 @@ class Run {
  private:
   using Clock = std::chrono::steady_clock;
 
-  Solver& solver() { return converged_ ? static_cast<Solver&>(*converged_) : *published_; }
+  Solver& solver() { return converged_ ? static_cast<Solver&>(*converged_) : *historical_; }
 
   SolverWork total_work() {
     SolverWork w = solver().work();
@@ -199,7 +199,7 @@ class Run {
   Sheet initial_;
   int threads_ = 1;
   std::unique_ptr<ConvergedSolver> converged_;
-  std::unique_ptr<PublishedSolver> published_;
+  std::unique_ptr<HistoricalSolver> historical_;
   std::unique_ptr<Experiment> experiment_;
   Kept kept_;
   Clock::time_point last_;

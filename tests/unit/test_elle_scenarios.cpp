@@ -46,7 +46,7 @@ TEST_CASE("a solver beside the main one runs the first spread only; ids tell cas
   const auto cases = model().cases(scenario("elle_polycrystal"));
   REQUIRE(cases.size() == 4);
   CHECK(cases[0].id == "pure_shear_spread_0_6");
-  CHECK(cases[3].id == "pure_shear_spread_0_6_as_published");
+  CHECK(cases[3].id == "pure_shear_spread_0_6_historical");
   for (const auto& spec : cases) CHECK(spec.content.find("solvers") != std::string::npos);
 }
 
