@@ -1,12 +1,12 @@
 #include <atomic>
 
 #include "engine/core/files.h"
-#include "render/chart/chart_panel.h"
+#include "render/chart/layout.h"
 #include "render/draw.h"
 #include "render/offscreen/offscreen.h"
+#include "render/paper/pixels.h"
 #include "render/png.h"
-#include "render/scene/scene_draw.h"
-#include "render/paper/paper_png.h"
+#include "render/scene/draw.h"
 
 namespace render {
 

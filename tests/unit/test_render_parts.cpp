@@ -7,12 +7,12 @@
 #include <set>
 
 #include "engine/core/random.h"
-#include "render/scene/culling.h"
 #include "render/chart/curve.h"
 #include "render/chart/dashes.h"
-#include "render/scene/occupancy.h"
-#include "render/paper/paper.h"
+#include "render/chart/occupancy.h"
 #include "render/chart/ticks.h"
+#include "render/paper/paper.h"
+#include "render/scene/culling.h"
 
 using render::Axis;
 using render::Range;

@@ -1,6 +1,6 @@
 // A sheet as pixels: shapes are triangles drawn by VTK in their order, text comes from VTK's FreeType renderer; both at
 // several times the size, then shrunk.
-#include "render/paper/paper_png.h"
+#include "render/paper/pixels.h"
 
 #include <vtkCamera.h>
 #include <vtkImageData.h>

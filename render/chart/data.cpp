@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "render/chart/chart_panel.h"
 #include "render/chart/curve.h"
+#include "render/chart/layout.h"
 
 namespace render {
 namespace {

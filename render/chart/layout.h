@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "render/scene/occupancy.h"
-#include "render/paper/paper.h"
+#include "render/chart/occupancy.h"
 #include "render/chart/ticks.h"
+#include "render/paper/paper.h"
 
 namespace render {
 

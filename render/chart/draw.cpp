@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "render/chart/chart_panel.h"
+#include "render/chart/layout.h"
 
 namespace render {
 namespace {

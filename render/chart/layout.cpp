@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/chart/chart_panel.h"
+#include "render/chart/layout.h"
 
 namespace render {
 namespace {
