@@ -1,4 +1,4 @@
-// Axes, curves and colours of charts, without drawing.
+// Axes, curves, free places and colours of charts, and what a scene hides, without drawing.
 #include <doctest/doctest.h>
 
 #include <algorithm>
