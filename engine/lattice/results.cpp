@@ -15,10 +15,10 @@ namespace {
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 // Stress and strain of samples as the scenario defines them, positive in the sense of the test.
-struct Measure {
+struct StressStrain {
   double area, sense;
   Gauge gauge;
-  Measure(const Settings& s, const Block& b)
+  StressStrain(const Settings& s, const Block& b)
       : area(section_area(b, s.setup.axis, s.section)), sense(s.test == "tension" ? 1 : -1), gauge(s.gauge) {}
   double stress(const Sample& s) const { return sense * 0.5 * (s.force[0] + s.force[1]) / area; }
   double strain(const Sample& s) const { return sense * (gauge == Gauge::planes ? s.between_planes : s.strain); }
@@ -32,7 +32,7 @@ std::vector<double> column(const std::vector<Sample>& history, Get get) {
   return values;
 }
 
-Table history_table(const std::vector<Sample>& h, const Measure& m) {
+Table history_table(const std::vector<Sample>& h, const StressStrain& m) {
   Table t{"history",
           {{"stress", "positive in the sense of the test"}, {"lateral", "strains across the two other axes"}},
           {}};
@@ -124,11 +124,11 @@ const Sample& sample_from(const std::vector<Sample>& h, std::int64_t step) {
 }
 
 // Largest stress of a test that ended in failure. Loaded along its rows a block may never fail.
-double strength_of(const StrengthTest& test, const Measure& m) {
+double strength_of(const StrengthTest& test, const StressStrain& m) {
   return test.failed() ? m.stress(test.peak()) : std::numeric_limits<double>::quiet_NaN();
 }
 
-void tension_results(Record& r, const Settings& s, const StrengthTest& test, const Measure& m) {
+void tension_results(Record& r, const Settings& s, const StrengthTest& test, const StressStrain& m) {
   const auto& h = test.history();
   const double dt = s.setup.time_step;
   const double strength = strength_of(test, m);
@@ -165,7 +165,7 @@ struct Opening {
   std::size_t before = 0;  // sample
   double low = 0;          // smallest stress up to the recovery
 };
-Opening largest_opening(const std::vector<Sample>& h, std::int64_t peak_step, const Measure& m) {
+Opening largest_opening(const std::vector<Sample>& h, std::int64_t peak_step, const StressStrain& m) {
   constexpr std::int64_t window = 300;  // steps: opening runs through the block like the crack in tension
   Opening found;
   std::int64_t most = 0;
@@ -185,7 +185,7 @@ Opening largest_opening(const std::vector<Sample>& h, std::int64_t peak_step, co
   return found;
 }
 
-void compression_results(Record& r, const Settings& s, const StrengthTest& test, const Measure& m) {
+void compression_results(Record& r, const Settings& s, const StrengthTest& test, const StressStrain& m) {
   const auto& h = test.history();
   const double dt = s.setup.time_step;
   const double strength = strength_of(test, m);
@@ -262,7 +262,7 @@ void add_block(Record& r, const Block& block) {
 }
 
 void add_strength(Record& r, const Settings& s, const Block& block, const StrengthTest& test) {
-  const Measure m(s, block);
+  const StressStrain m(s, block);
   if (s.test == "tension") {
     tension_results(r, s, test, m);
   } else {

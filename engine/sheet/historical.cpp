@@ -6,7 +6,7 @@
 namespace dem::sheet {
 
 // The sweep is in place and in index order, so it is sequential by definition: one thread, the same bits always.
-Relaxation PublishedSolver::relax(Sheet& s, Forces& forces, std::span<const int>) {
+Relaxation HistoricalSolver::relax(Sheet& s, Forces& forces, std::span<const int>) {
   const int n = s.particles();
   Relaxation result;
   ++work_.relaxations;

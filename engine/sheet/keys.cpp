@@ -204,7 +204,7 @@ std::vector<Key> declare() {
        .help = "strains at which fields are kept; the end is always kept"},
       {.path = "solvers",
        .type = KeyType::texts,
-       .choices = {"converged", "as_published"},
+       .choices = {"converged", "historical"},
        .standard = "[\"converged\"]",
        .affects = Affects::cases,
        .help = "a case for each"},
@@ -215,20 +215,20 @@ std::vector<Key> declare() {
        .affects = Affects::test,
        .when = {"converged"},
        .help = "converged: largest unbalanced over largest spring force"},
-      {.path = "published.relaxation",
+      {.path = "historical.relaxation",
        .low = 0.01,
        .high = 1.99,
        .standard = "0.9",
        .affects = Affects::test,
-       .when = {"as_published"},
-       .help = "as_published: share of (sum F)/(sum k) that a particle moves"},
-      {.path = "published.stop",
+       .when = {"historical"},
+       .help = "historical: share of (sum F)/(sum k) that a particle moves"},
+      {.path = "historical.stop",
        .low = 1e-15,
        .high = 1,
        .standard = "1.4e-7",
        .affects = Affects::test,
-       .when = {"as_published"},
-       .help = "as_published: largest move that counts as equilibrium, box widths"},
+       .when = {"historical"},
+       .help = "historical: largest move that counts as equilibrium, box widths"},
       {.path = "sweep.spread",
        .type = KeyType::reals,
        .low = 0,
@@ -309,8 +309,8 @@ Settings read_settings(const Scenario& s) {
   r.solver = s.texts("solvers").front();
   if (r.solver == "converged") r.loading.work_tolerance = s.real("loading.work_tolerance");
   r.converged.tolerance = s.real("solver.tolerance");
-  r.published.relaxation = s.real("published.relaxation");
-  r.published.stop = s.real("published.stop");
+  r.historical.relaxation = s.real("historical.relaxation");
+  r.historical.stop = s.real("historical.stop");
   if (r.loading.kind == LoadingKind::growth) {
     const bool grows =
         std::any_of(r.rules.begin(), r.rules.end(), [](const auto& rule) { return rule.properties.growth > 1; });

@@ -31,9 +31,9 @@ struct Settings {
   DisorderSettings disorder;
   Loading loading;
   std::vector<double> snapshots;  ///< strains
-  std::string solver;             ///< "converged", "as_published"
+  std::string solver;             ///< "converged", "historical"
   ConvergedSettings converged;
-  PublishedSettings published;
+  HistoricalSettings historical;
   std::uint64_t seed = 1;
 };
 

@@ -98,7 +98,7 @@ class Run {
     if (settings_.solver == "converged") {
       converged_ = std::make_unique<ConvergedSolver>(specimen_.sheet, settings_.converged);
     } else {
-      published_ = std::make_unique<PublishedSolver>(settings_.published, threads_);
+      historical_ = std::make_unique<HistoricalSolver>(settings_.historical, threads_);
     }
     experiment_ = std::make_unique<Experiment>(specimen_.sheet, solver(), settings_.loading, threads_);
   }
@@ -121,7 +121,7 @@ class Run {
   }
 
  private:
-  Solver& solver() { return converged_ ? static_cast<Solver&>(*converged_) : *published_; }
+  Solver& solver() { return converged_ ? static_cast<Solver&>(*converged_) : *historical_; }
 
   SolverWork total_work() {
     SolverWork w = solver().work();
@@ -183,7 +183,7 @@ class Run {
   Sheet initial_;
   int threads_ = 1;
   std::unique_ptr<ConvergedSolver> converged_;
-  std::unique_ptr<PublishedSolver> published_;
+  std::unique_ptr<HistoricalSolver> historical_;
   std::unique_ptr<Experiment> experiment_;
   Kept kept_;
   Keeper keeper_;

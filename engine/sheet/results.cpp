@@ -219,7 +219,7 @@ void add_checks(Record& record, const Settings& settings, const Experiment& expe
                              "Work that is neither elastic energy nor released by breaking or jumps, over the work."});
   } else {
     record.checks.push_back({"stopping_rule", static_cast<double>(e.missed), 0, e.missed == 0,
-                             "Relaxations that did not come to the published stop."});
+                             "Relaxations that did not come to the stop of the sweep."});
   }
 }
 
@@ -305,7 +305,7 @@ void add_results(Record& record, const Settings& settings, const Specimen& speci
         "first); the outlines cover {:.4f} of the cell.",
         specimen.sheet.particles(), specimen.cover.holes, specimen.cover.overlaps, specimen.cover.area_share));
   }
-  if (settings.solver == "as_published") {
+  if (settings.solver == "historical") {
     record.notes.push_back(
         fmt::format("Made with the historical sweep and its stop: the largest unbalanced force reached {:.2g} of the "
                     "largest spring "

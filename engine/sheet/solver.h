@@ -1,8 +1,8 @@
 #pragma once
 // What brings a sheet to equilibrium after its walls moved or a spring broke. Two solvers, named in every report:
-//   converged     force equilibrium: the largest unbalanced force is at most 1e-8 of the largest spring force
-//   as_published  the historical sweep: every particle in turn moves 0.9 (sum F)/(sum k), until no move exceeds 1.4e-7
-//                 of the box
+//   converged   force equilibrium: the largest unbalanced force is at most 1e-8 of the largest spring force
+//   historical  the sweep of the old program: every particle in turn moves 0.9 (sum F)/(sum k), until no move exceeds
+//               1.4e-7 of the box
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -16,7 +16,7 @@ namespace dem::sheet {
 struct Relaxation {
   bool reached = false;   ///< the solver's own criterion was met
   double unbalanced = 0;  ///< largest unbalanced force over the largest spring force, at the end
-  int iterations = 0;     ///< global solves (converged) or sweeps (as_published)
+  int iterations = 0;     ///< global solves (converged) or sweeps (historical)
 };
 
 /// What a solver did since it was made.
@@ -76,20 +76,20 @@ class ConvergedSolver final : public Solver {
   std::unique_ptr<Impl> impl_;
 };
 
-struct PublishedSettings {
+struct HistoricalSettings {
   double relaxation = 0.9;  ///< share of (sum F)/(sum k) that a particle moves
   double stop = 1.4e-7;     ///< largest move that counts as equilibrium, in box widths
   int most_sweeps = 1000000;
 };
 
-class PublishedSolver final : public Solver {
+class HistoricalSolver final : public Solver {
  public:
-  explicit PublishedSolver(PublishedSettings settings, int threads) : settings_(settings), threads_(threads) {}
+  explicit HistoricalSolver(HistoricalSettings settings, int threads) : settings_(settings), threads_(threads) {}
   Relaxation relax(Sheet& sheet, Forces& forces, std::span<const int> near) override;
   [[nodiscard]] SolverWork work() const override { return work_; }
 
  private:
-  PublishedSettings settings_;
+  HistoricalSettings settings_;
   int threads_;
   SolverWork work_;
 };

@@ -1,8 +1,7 @@
 #pragma once
 // Charts: curves, bars, bands and marks on one or two value axes, with insets. Plain data in; PNG and vector SVG out
 // (render/draw.h). Values are in the units that the axis titles name: the caller converts. Text is UTF-8 and
-// understands
-// _{...} and ^{...} for indices and exponents: "σ_{ci} (MPa)". NaN breaks a curve and leaves a bar out.
+// understands _{...} and ^{...} for indices and exponents: "σ_{ci} (MPa)". NaN breaks a curve and leaves a bar out.
 #include <array>
 #include <optional>
 #include <string>
@@ -71,7 +70,8 @@ struct Mark {
 struct Chart;
 struct Inset {
   std::vector<Chart> chart;       ///< exactly one (a vector, so that the type may contain itself)
-  std::array<double, 4> place{};  ///< left, bottom, width, height as fractions of the plot area
+  std::array<double, 4> place{};  ///< left, bottom, width, height as fractions of the plot area; where it
+                                  ///< would cover data, the nearest place that covers least
 };
 
 struct Chart {

@@ -1,12 +1,12 @@
 #include <atomic>
 
 #include "engine/core/files.h"
-#include "render/chart/chart_panel.h"
+#include "render/chart/layout.h"
 #include "render/draw.h"
 #include "render/offscreen/offscreen.h"
-#include "render/paper/paper_png.h"
+#include "render/paper/pixels.h"
 #include "render/png.h"
-#include "render/scene/scene_draw.h"
+#include "render/scene/draw.h"
 
 namespace render {
 
@@ -32,12 +32,12 @@ SceneResult Canvas::draw(const Scene& scene, const std::filesystem::path& png, c
 
 void Canvas::draw(const Chart& chart, const std::filesystem::path& png, const std::filesystem::path& svg,
                   const Provenance& facts) {
-  const Sheet sheet = sheet_of(chart);
+  const Paper paper = paper_of(chart);
   Provenance with_extents = facts;
   for (const auto& fact : extents(chart)) with_extents.push_back(fact);
   constexpr int scale = 2;
-  if (!png.empty()) write_png(to_image(impl_->offscreen, sheet, scale), png, facts, Content::drawing);
-  if (!svg.empty()) dem::write_file(svg, to_svg(sheet, with_extents));
+  if (!png.empty()) write_png(to_image(impl_->offscreen, paper, scale), png, facts, Content::drawing);
+  if (!svg.empty()) dem::write_file(svg, to_svg(paper, with_extents));
 }
 
 bool Canvas::any_made() { return made; }

@@ -8,30 +8,30 @@
 
 namespace render {
 
-void Sheet::polygon(std::vector<Vec2> convex, const Colour& colour, double opacity) {
+void Paper::polygon(std::vector<Vec2> convex, const Colour& colour, double opacity) {
   if (convex.size() >= 3) items_.emplace_back(Fill{std::move(convex), {}, colour, opacity});
 }
 
-void Sheet::rectangle(const Rect& r, const Colour& colour, double opacity) {
+void Paper::rectangle(const Rect& r, const Colour& colour, double opacity) {
   polygon({{r.left, r.top}, {r.right, r.top}, {r.right, r.bottom}, {r.left, r.bottom}}, colour, opacity);
 }
 
-void Sheet::band(std::vector<Vec2> upper, std::vector<Vec2> lower, const Colour& colour, double opacity) {
+void Paper::band(std::vector<Vec2> upper, std::vector<Vec2> lower, const Colour& colour, double opacity) {
   if (upper.size() >= 2 && upper.size() == lower.size())
     items_.emplace_back(Fill{std::move(upper), std::move(lower), colour, opacity});
 }
 
-void Sheet::line(std::vector<Vec2> points, const Stroke& stroke) {
+void Paper::line(std::vector<Vec2> points, const Stroke& stroke) {
   if (points.size() >= 2 && stroke.line != Line::none) items_.emplace_back(Path{std::move(points), stroke});
 }
 
-void Sheet::frame(const Rect& r, const Stroke& stroke) {
+void Paper::frame(const Rect& r, const Stroke& stroke) {
   // One more step along the first side closes the corner.
   line({{r.left, r.top}, {r.right, r.top}, {r.right, r.bottom}, {r.left, r.bottom}, {r.left, r.top}, {r.right, r.top}},
        stroke);
 }
 
-void Sheet::marker(Marker marker, const Vec2& at, double size, const Colour& colour) {
+void Paper::marker(Marker marker, const Vec2& at, double size, const Colour& colour) {
   const double r = size / 2;
   const auto corners = [&](int count, double turn, double radius) {
     std::vector<Vec2> points;
@@ -66,7 +66,7 @@ void Sheet::marker(Marker marker, const Vec2& at, double size, const Colour& col
   }
 }
 
-void Sheet::text(const std::string& text, const Vec2& at, const TextStyle& style) {
+void Paper::text(const std::string& text, const Vec2& at, const TextStyle& style) {
   const std::vector<Piece> pieces = pieces_of(text);
   if (pieces.size() == 1 && pieces[0].shift == 0) {  // the reader's own font may differ: keep the anchor
     items_.emplace_back(Run{at, pieces[0].text, style});

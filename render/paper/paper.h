@@ -1,6 +1,6 @@
 #pragma once
-// A sheet of paper: filled shapes, lines and text in pixels at 100 dpi, x right, y down, recorded in order. One
-// recording becomes vector SVG (sheet_svg.cpp) and pixels (sheet_png.cpp). No VTK here.
+// The paper that a chart is drawn on: filled shapes, lines and text in pixels at 100 dpi, x right, y down, recorded in
+// order. One recording becomes vector SVG (svg.cpp) and pixels (pixels.cpp). No VTK here.
 #include <string>
 #include <variant>
 #include <vector>
@@ -61,11 +61,11 @@ struct Run {
   TextStyle style;
 };
 
-class Sheet {
+class Paper {
  public:
   using Item = std::variant<Fill, Path, Run>;
 
-  Sheet(int width, int height) : width_(width), height_(height) {}
+  Paper(int width, int height) : width_(width), height_(height) {}
 
   void polygon(std::vector<Vec2> convex, const Colour& colour, double opacity = 1);
   void rectangle(const Rect& rect, const Colour& colour, double opacity = 1);
@@ -95,6 +95,6 @@ double text_width(const std::string& text, double size, bool bold = false);
 constexpr double cap_height = 0.729, descent = 0.236;
 
 /// A complete SVG document; the facts go into <title>, <desc> and <metadata>.
-std::string to_svg(const Sheet& sheet, const Provenance& facts);
+std::string to_svg(const Paper& paper, const Provenance& facts);
 
 }  // namespace render

@@ -3,7 +3,7 @@
 #include <vtkActor.h>
 #include <vtkSmartPointer.h>
 
-#include "render/scene/scene_shapes.h"
+#include "render/scene/shapes.h"
 
 namespace render {
 

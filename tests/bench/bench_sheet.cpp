@@ -62,10 +62,10 @@ Race race(int columns, int threads) {
   double t = cpu();
   (void)solver.relax(sheet, forces, std::span(&slot, 1));
   r.our_seconds = cpu() - t;
-  PublishedSettings block;
+  HistoricalSettings block;
   block.stop = 0;
   block.most_sweeps = 100;
-  PublishedSolver historical(block, 1);
+  HistoricalSolver historical(block, 1);
   compute_forces(other, forces, threads);
   t = cpu();
   while (forces.unbalanced > settings.tolerance * forces.largest && r.sweeps < 1e6) {
@@ -138,10 +138,10 @@ int main(int argc, char** argv) {
   getrusage(RUSAGE_SELF, &usage);
   line("memory", static_cast<double>(usage.ru_maxrss) / 1048576.0, "GiB", threads, size);
 
-  PublishedSettings sweeps;
+  HistoricalSettings sweeps;
   sweeps.stop = 0;
   sweeps.most_sweeps = 20;
-  PublishedSolver historical(sweeps, threads);
+  HistoricalSolver historical(sweeps, threads);
   t = cpu();
   historical.relax(sheet, forces, {});
   const double sweep = (cpu() - t) / sweeps.most_sweeps;

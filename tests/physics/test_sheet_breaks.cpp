@@ -178,7 +178,7 @@ TEST_CASE("wide strength distributions break earlier and more gradually than nar
 
 TEST_CASE("the historical sweep stops where its rule says, far from equilibrium") {
   Sheet sheet = reference::polycrystal(50);
-  PublishedSolver solver({}, 1);
+  HistoricalSolver solver({}, 1);
   Experiment experiment(sheet, solver, shear(30), 1);
   experiment.run();
   CHECK(experiment.state().equilibrium.missed == 0);

@@ -49,7 +49,7 @@ TEST_CASE("a solver beside the main one runs the first spread only; ids tell cas
   const auto cases = model().cases(scenario("elle_polycrystal"));
   REQUIRE(cases.size() == 4);
   CHECK(cases[0].id == "pure_shear_spread_0_6");
-  CHECK(cases[3].id == "pure_shear_spread_0_6_as_published");
+  CHECK(cases[3].id == "pure_shear_spread_0_6_historical");
   for (const auto& spec : cases) CHECK(spec.content.find("kind = ") != std::string::npos);
 }
 

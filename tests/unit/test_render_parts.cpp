@@ -1,4 +1,4 @@
-// Axes, curves and colours of charts, without drawing.
+// Axes, curves, free places and colours of charts, and what a scene hides, without drawing.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -9,10 +9,10 @@
 #include "engine/core/random.h"
 #include "render/chart/curve.h"
 #include "render/chart/dashes.h"
+#include "render/chart/occupancy.h"
 #include "render/chart/ticks.h"
 #include "render/paper/paper.h"
 #include "render/scene/culling.h"
-#include "render/scene/occupancy.h"
 
 using render::Axis;
 using render::Range;

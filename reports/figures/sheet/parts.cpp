@@ -50,7 +50,7 @@ std::string label_of(const dem::Record& record, const StudyResult& study) {
       break;
     }
   }
-  if (record.text("solver") == "as_published") label += std::string(label.empty() ? "" : ", ") + "as published";
+  if (record.text("solver") == "historical") label += std::string(label.empty() ? "" : ", ") + "historical";
   return label.empty() ? "this run" : label;
 }
 

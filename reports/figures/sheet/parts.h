@@ -15,7 +15,7 @@ namespace quantity = dem::sheet::quantity;
 /// All records of the study, in report order; the first is the scenario's own.
 std::vector<const dem::Record*> records_of(const StudyResult& study);
 const dem::Record* main_record(const StudyResult& study);
-/// "spread 0.6", "spread 0.6, as published": what sets a case apart from the others of its study.
+/// "spread 0.6", "spread 0.6, historical": what sets a case apart from the others of its study.
 std::string label_of(const dem::Record& record, const StudyResult& study);
 
 /// The sheet as it was laid: columns, rows and radius, in box widths.

@@ -1,4 +1,4 @@
-#include "render/scene/scene_draw.h"
+#include "render/scene/draw.h"
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -22,7 +22,7 @@
 #include <string>
 
 #include "render/scene/culling.h"
-#include "render/scene/scene_shapes.h"
+#include "render/scene/shapes.h"
 #include "render/scene/vtk_triangles.h"
 
 namespace render {

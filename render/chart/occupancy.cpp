@@ -1,4 +1,4 @@
-#include "render/scene/occupancy.h"
+#include "render/chart/occupancy.h"
 
 #include <algorithm>
 #include <cmath>

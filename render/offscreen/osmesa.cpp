@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/core/errors.h"
-#include "render/offscreen/offscreen_window.h"
+#include "render/offscreen/window.h"
 
 namespace render {
 

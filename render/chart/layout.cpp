@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/chart/chart_panel.h"
+#include "render/chart/layout.h"
 
 namespace render {
 namespace {
@@ -78,24 +78,24 @@ Ranges ranges_of(const Chart& chart) {
 }
 
 /// Height (px) that values printed at the ends of bars need.
-double value_room(const Panel& panel) {
+double value_room(const ChartLayout& layout) {
   double room = 0;
-  for (const Bar& bar : bars_of(panel)) {
-    const ValueText value = value_text(panel, bar);
+  for (const Bar& bar : bars_of(layout)) {
+    const ValueText value = value_text(layout, bar);
     room = std::max(room, value.upward ? value.width : value.size);
   }
-  return room + 0.5 * panel.text;
+  return room + 0.5 * layout.text;
 }
 
 /// A little air beyond the data, more where values are printed at bars, none over stacks (of 100 %).
-Range with_air(const Panel& panel, Range range, Side side) {
-  const Chart& chart = *panel.chart;
+Range with_air(const ChartLayout& layout, Range range, Side side) {
+  const Chart& chart = *layout.chart;
   const Axis& axis = side == Side::left ? chart.left : chart.right;
   if (!range.any || axis.logarithmic) return range;
   double air = 0.02;
   if (chart.bars && chart.bars->side == side && chart.bars->stacked) air = 0;
   if (chart.bars && chart.bars->side == side && !chart.bars->stacked && chart.bars->print_values)
-    air = std::min(0.5, value_room(panel) / panel.plot.height());
+    air = std::min(0.5, value_room(layout) / layout.plot.height());
   const double room = air * (range.high - range.low), low = range.low;
   range.high = range.high <= 0 ? std::min(0.0, range.high + room) : range.high + room;
   range.low = low >= 0 ? std::max(0.0, low - room) : low - room;
@@ -147,90 +147,90 @@ std::vector<std::string> wrapped(const std::string& text, double width, double s
   return lines;
 }
 
-void make_scales(Panel& panel, const Ranges& ranges) {
-  const Chart& chart = *panel.chart;
+void make_scales(ChartLayout& layout, const Ranges& ranges) {
+  const Chart& chart = *layout.chart;
   if (chart.bars) {
-    panel.x = Scale{};
-    panel.x.low = -0.5;
-    panel.x.high = std::max(0.5, static_cast<double>(chart.bars->categories.size()) - 0.5);
-    panel.categories.clear();
-    const double slot = panel.plot.width() / std::max<std::size_t>(1, chart.bars->categories.size());
+    layout.x = Scale{};
+    layout.x.low = -0.5;
+    layout.x.high = std::max(0.5, static_cast<double>(chart.bars->categories.size()) - 0.5);
+    layout.categories.clear();
+    const double slot = layout.plot.width() / std::max<std::size_t>(1, chart.bars->categories.size());
     double widest = 0;
     for (const auto& name : chart.bars->categories) {
-      panel.categories.push_back(wrapped(name, 0.94 * slot, panel.text));
-      for (const auto& line : panel.categories.back()) widest = std::max(widest, text_width(line, panel.text));
+      layout.categories.push_back(wrapped(name, 0.94 * slot, layout.text));
+      for (const auto& line : layout.categories.back()) widest = std::max(widest, text_width(line, layout.text));
     }
-    panel.category_text = panel.text * std::clamp(0.96 * slot / std::max(widest, 1.0), 0.7, 1.0);
+    layout.category_text = layout.text * std::clamp(0.96 * slot / std::max(widest, 1.0), 0.7, 1.0);
   } else {
     Range x = ranges.x;
     const double air = (ranges.marked ? 0.04 : 0.02) * (x.high - x.low);
-    panel.x = x_scale(chart.x, x, false, panel.plot.width(), panel.text);
+    layout.x = x_scale(chart.x, x, false, layout.plot.width(), layout.text);
     // A round end of the axis is good; a third of a step of empty paper, or points on the frame, are not.
-    const bool loose = panel.x.high - panel.x.low > 1.1 * (x.high - x.low);
+    const bool loose = layout.x.high - layout.x.low > 1.1 * (x.high - x.low);
     if (x.any && !chart.x.logarithmic && x.high > x.low && (ranges.marked || loose)) {
       if (x.low > air || x.low < 0) x.low -= air;
       if (x.high > 0 || x.high < -air) x.high += air;
-      panel.x = x_scale(chart.x, x, true, panel.plot.width(), panel.text);
+      layout.x = x_scale(chart.x, x, true, layout.plot.width(), layout.text);
     }
   }
-  const int wanted = std::clamp(static_cast<int>(panel.plot.height() / (3.4 * panel.text)), 2, 8);
+  const int wanted = std::clamp(static_cast<int>(layout.plot.height() / (3.4 * layout.text)), 2, 8);
   const auto ticks = [&](const Axis& axis) { return axis.logarithmic ? 2 * wanted : wanted; };  // powers are short
-  panel.left = make_scale(chart.left, with_air(panel, ranges.left, Side::left), ticks(chart.left), false);
-  panel.right = make_scale(chart.right, with_air(panel, ranges.right, Side::right), ticks(chart.right), false);
+  layout.left = make_scale(chart.left, with_air(layout, ranges.left, Side::left), ticks(chart.left), false);
+  layout.right = make_scale(chart.right, with_air(layout, ranges.right, Side::right), ticks(chart.right), false);
 }
 
 /// Room left, top, right and bottom of the plot for labels and titles (without legend).
-Rect margins(const Panel& panel) {
-  const Chart& chart = *panel.chart;
-  const double text = panel.text, title = panel.title_size();
+Rect margins(const ChartLayout& layout) {
+  const Chart& chart = *layout.chart;
+  const double text = layout.text, title = layout.title_size();
   const auto side = [&](const Scale& scale, const Axis& axis) {
     double room = 4 + widest_label(scale, text) + label_gap;
     if (!axis.title.empty()) room += 1.45 * title;
     return room;
   };
   Rect m;
-  m.left = side(panel.left, chart.left);
-  m.right = panel.has_right ? side(panel.right, chart.right) : 8;
+  m.left = side(layout.left, chart.left);
+  m.right = layout.has_right ? side(layout.right, chart.right) : 8;
   m.top = 8;
-  if (!panel.left.multiplier.empty() || (panel.has_right && !panel.right.multiplier.empty())) m.top += 1.2 * text;
+  if (!layout.left.multiplier.empty() || (layout.has_right && !layout.right.multiplier.empty())) m.top += 1.2 * text;
   if (!chart.title.empty()) m.top += 1.9 * title;
   std::size_t lines = 1;
-  for (const auto& name : panel.categories) lines = std::max(lines, name.size());
+  for (const auto& name : layout.categories) lines = std::max(lines, name.size());
   m.bottom = 6 + label_gap + (0.8 + 1.2 * static_cast<double>(lines - 1)) * text;
-  if (!chart.x.title.empty() || !panel.x.multiplier.empty()) m.bottom += 1.6 * title;
-  for (const Tick& tick : panel.x.ticks) {  // labels at the ends of the x axis reach over it
+  if (!chart.x.title.empty() || !layout.x.multiplier.empty()) m.bottom += 1.6 * title;
+  for (const Tick& tick : layout.x.ticks) {  // labels at the ends of the x axis reach over it
     const double half = text_width(tick.label, text) / 2 + 2;
-    m.left = std::max(m.left, half - panel.x.share(tick.value) * panel.plot.width());
-    m.right = std::max(m.right, half - (1 - panel.x.share(tick.value)) * panel.plot.width());
+    m.left = std::max(m.left, half - layout.x.share(tick.value) * layout.plot.width());
+    m.right = std::max(m.right, half - (1 - layout.x.share(tick.value)) * layout.plot.width());
   }
   return m;
 }
 
-void place_legend(Panel& panel, const Vec2& size) {
-  const double gap = 0.7 * panel.text;
-  const Rect& p = panel.plot;
-  switch (panel.legend) {
+void place_legend(ChartLayout& layout, const Vec2& size) {
+  const double gap = 0.7 * layout.text;
+  const Rect& p = layout.plot;
+  switch (layout.legend) {
     case Chart::Legend::none:
       break;
     case Chart::Legend::top_left:
-      panel.legend_box = {p.left + gap, p.top + gap, p.left + gap + size.x, p.top + gap + size.y};
+      layout.legend_box = {p.left + gap, p.top + gap, p.left + gap + size.x, p.top + gap + size.y};
       break;
     case Chart::Legend::top_right:
-      panel.legend_box = {p.right - gap - size.x, p.top + gap, p.right - gap, p.top + gap + size.y};
+      layout.legend_box = {p.right - gap - size.x, p.top + gap, p.right - gap, p.top + gap + size.y};
       break;
     case Chart::Legend::bottom_left:
-      panel.legend_box = {p.left + gap, p.bottom - gap - size.y, p.left + gap + size.x, p.bottom - gap};
+      layout.legend_box = {p.left + gap, p.bottom - gap - size.y, p.left + gap + size.x, p.bottom - gap};
       break;
     case Chart::Legend::bottom_right:
-      panel.legend_box = {p.right - gap - size.x, p.bottom - gap - size.y, p.right - gap, p.bottom - gap};
+      layout.legend_box = {p.right - gap - size.x, p.bottom - gap - size.y, p.right - gap, p.bottom - gap};
       break;
     case Chart::Legend::outside_right:
-      panel.legend_box = {panel.area.right - size.x - 4, p.top, panel.area.right - 4, p.top + size.y};
+      layout.legend_box = {layout.area.right - size.x - 4, p.top, layout.area.right - 4, p.top + size.y};
       break;
     case Chart::Legend::below: {
       const double left =
-          std::max(panel.area.left + 4, std::min(p.middle().x - size.x / 2, panel.area.right - 4 - size.x));
-      panel.legend_box = {left, panel.area.bottom - size.y - 4, left + size.x, panel.area.bottom - 4};
+          std::max(layout.area.left + 4, std::min(p.middle().x - size.x / 2, layout.area.right - 4 - size.x));
+      layout.legend_box = {left, layout.area.bottom - size.y - 4, left + size.x, layout.area.bottom - 4};
       break;
     }
   }
@@ -238,29 +238,29 @@ void place_legend(Panel& panel, const Vec2& size) {
 
 }  // namespace
 
-Panel lay_out(const Chart& chart, const Rect& area, double text, Chart::Legend legend) {
+ChartLayout lay_out(const Chart& chart, const Rect& area, double text, Chart::Legend legend) {
   Ranges ranges = ranges_of(chart);
-  Panel panel;
-  panel.chart = &chart;
-  panel.area = area;
-  panel.text = text;
-  panel.has_right = ranges.has_right;
-  const auto entries = legend_entries(chart);
-  panel.legend = entries.empty() ? Chart::Legend::none : legend;
-  panel.plot = {area.left + 4 * text, area.top + text, area.right - text, area.bottom - 3.5 * text};
+  ChartLayout layout;
+  layout.chart = &chart;
+  layout.area = area;
+  layout.text = text;
+  layout.has_right = ranges.has_right;
+  const auto keys = legend_keys(chart);
+  layout.legend = keys.empty() ? Chart::Legend::none : legend;
+  layout.plot = {area.left + 4 * text, area.top + text, area.right - text, area.bottom - 3.5 * text};
   Vec2 size;
   for (int pass = 0; pass < 2; ++pass) {  // ticks depend on the plot's size, and the plot on the ticks' labels
-    make_scales(panel, ranges);
-    const Rect m = margins(panel);
-    size = legend_size(panel, entries, area.width() - 8);
-    panel.plot = {area.left + m.left, area.top + m.top, area.right - m.right, area.bottom - m.bottom};
-    if (panel.legend == Chart::Legend::below) panel.plot.bottom -= size.y + 0.5 * text;
-    if (panel.legend == Chart::Legend::outside_right) panel.plot.right -= size.x + text;
-    panel.plot.right = std::max(panel.plot.right, panel.plot.left + 20);
-    panel.plot.bottom = std::max(panel.plot.bottom, panel.plot.top + 20);
+    make_scales(layout, ranges);
+    const Rect m = margins(layout);
+    size = legend_size(layout, keys, area.width() - 8);
+    layout.plot = {area.left + m.left, area.top + m.top, area.right - m.right, area.bottom - m.bottom};
+    if (layout.legend == Chart::Legend::below) layout.plot.bottom -= size.y + 0.5 * text;
+    if (layout.legend == Chart::Legend::outside_right) layout.plot.right -= size.x + text;
+    layout.plot.right = std::max(layout.plot.right, layout.plot.left + 20);
+    layout.plot.bottom = std::max(layout.plot.bottom, layout.plot.top + 20);
   }
-  place_legend(panel, size);
-  return panel;
+  place_legend(layout, size);
+  return layout;
 }
 
 Provenance extents(const Chart& chart) {

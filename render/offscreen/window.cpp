@@ -1,4 +1,4 @@
-#include "render/offscreen/offscreen_window.h"
+#include "render/offscreen/window.h"
 
 #include <vtkCameraPass.h>
 #include <vtkFloatArray.h>

@@ -1,6 +1,6 @@
-// A sheet as pixels: shapes are triangles drawn by VTK in their order, text comes from VTK's FreeType renderer; both at
+// Paper as pixels: shapes are triangles drawn by VTK in their order, text comes from VTK's FreeType renderer; both at
 // several times the size, then shrunk.
-#include "render/paper/paper_png.h"
+#include "render/paper/pixels.h"
 
 #include <vtkCamera.h>
 #include <vtkImageData.h>
@@ -22,7 +22,7 @@
 namespace render {
 namespace {
 
-/// Sheet pixels to view coordinates: origin in the middle, y up.
+/// Paper pixels to view coordinates: origin in the middle, y up.
 struct Mapper {
   double scale, width, height;
   [[nodiscard]] Point operator()(const Vec2& p) const {
@@ -71,10 +71,10 @@ void add(Triangles& out, const Mapper& map, const Path& path) {
 
 void add(Triangles&, const Mapper&, const Run&) {}  // text is drawn by write()
 
-Image shapes(Offscreen& offscreen, const Sheet& sheet, int scale) {
-  const Mapper map{static_cast<double>(scale), static_cast<double>(sheet.width()), static_cast<double>(sheet.height())};
+Image shapes(Offscreen& offscreen, const Paper& paper, int scale) {
+  const Mapper map{static_cast<double>(scale), static_cast<double>(paper.width()), static_cast<double>(paper.height())};
   Triangles triangles;
-  for (const auto& item : sheet.items()) std::visit([&](const auto& it) { add(triangles, map, it); }, item);
+  for (const auto& item : paper.items()) std::visit([&](const auto& it) { add(triangles, map, it); }, item);
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
   if (!triangles.xyz.empty()) renderer->AddActor(triangle_actor(triangles, true));
@@ -82,12 +82,12 @@ Image shapes(Offscreen& offscreen, const Sheet& sheet, int scale) {
   camera.SetPosition(0, 0, 10);
   camera.SetFocalPoint(0, 0, 0);
   camera.SetParallelProjection(1);
-  camera.SetParallelScale(scale * sheet.height() / 2.0);
+  camera.SetParallelScale(scale * paper.height() / 2.0);
   camera.SetClippingRange(1, 20);
-  return offscreen.frame(*renderer, scale * sheet.width(), scale * sheet.height());
+  return offscreen.frame(*renderer, scale * paper.width(), scale * paper.height());
 }
 
-/// Writes a run of text into the image, whose pixels are `scale` to one of the sheet.
+/// Writes a run of text into the image, whose pixels are `scale` to one of the paper's.
 void write(Image& image, const Run& run, int scale) {
   if (run.text.empty()) return;
   const TextStyle& style = run.style;
@@ -133,10 +133,10 @@ void write(Image& image, const Run& run, int scale) {
 
 }  // namespace
 
-Image to_image(Offscreen& offscreen, const Sheet& sheet, int scale) {
+Image to_image(Offscreen& offscreen, const Paper& paper, int scale) {
   constexpr int smoothing = 3;
-  Image large = shapes(offscreen, sheet, scale * smoothing);
-  for (const auto& item : sheet.items())
+  Image large = shapes(offscreen, paper, scale * smoothing);
+  for (const auto& item : paper.items())
     if (const Run* run = std::get_if<Run>(&item)) write(large, *run, scale * smoothing);
   return shrink(large, smoothing);
 }

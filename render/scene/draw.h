@@ -1,5 +1,5 @@
 #pragma once
-// Scenes through VTK: spheres as impostors, flat shapes as one set of triangles.
+// Scenes through VTK: spheres as impostors, flat shapes as triangles.
 #include "render/offscreen/offscreen.h"
 #include "render/scene/scene.h"
 

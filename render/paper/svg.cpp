@@ -1,4 +1,4 @@
-// A sheet as SVG. Text stays text (DejaVu Sans; Verdana runs nearly as wide), so that pages and PDF can be searched.
+// Paper as SVG. Text stays text (DejaVu Sans; Verdana runs nearly as wide), so that pages and PDF can be searched.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -81,7 +81,7 @@ std::string element(const Run& run) {
 
 }  // namespace
 
-std::string to_svg(const Sheet& sheet, const Provenance& facts) {
+std::string to_svg(const Paper& paper, const Provenance& facts) {
   std::string title, description, metadata;
   for (const auto& [key, value] : facts) {
     if (key == "Title")
@@ -94,12 +94,12 @@ std::string to_svg(const Sheet& sheet, const Provenance& facts) {
   std::string out = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" "
       "height=\"{1}\" viewBox=\"0 0 {0} {1}\" role=\"img\">\n",
-      sheet.width(), sheet.height());
+      paper.width(), paper.height());
   out += "<title>" + escaped(title) + "</title>\n<desc>" + escaped(description) + "</desc>\n";
   if (!metadata.empty())
     out += "<metadata>\n<facts xmlns=\"urn:dem-report:facts\">\n" + metadata + "</facts>\n</metadata>\n";
   out += "<g font-family=\"'DejaVu Sans', Verdana, sans-serif\">\n";
-  for (const auto& item : sheet.items()) out += std::visit([](const auto& it) { return element(it); }, item);
+  for (const auto& item : paper.items()) out += std::visit([](const auto& it) { return element(it); }, item);
   return out + "</g>\n</svg>\n";
 }
 

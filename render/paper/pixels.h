@@ -1,10 +1,10 @@
 #pragma once
-// A sheet as pixels.
+// Paper as pixels.
 #include "render/offscreen/offscreen.h"
 #include "render/paper/paper.h"
 
 namespace render {
 
-Image to_image(Offscreen& offscreen, const Sheet& sheet, int scale);  ///< at `scale` times its size
+Image to_image(Offscreen& offscreen, const Paper& paper, int scale);  ///< at `scale` times its size
 
 }  // namespace render

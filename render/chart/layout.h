@@ -1,20 +1,21 @@
 #pragma once
-// A chart in the making: scales, the plot area, and where its data lies in it. Used by chart_*.cpp only.
+// A chart in the making: scales, the plot area, where its data lies in it, and the parts that are drawn from that.
+// Besides the files of this folder only canvas.cpp looks in here.
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "render/chart/occupancy.h"
 #include "render/chart/ticks.h"
 #include "render/paper/paper.h"
-#include "render/scene/occupancy.h"
 
 namespace render {
 
 constexpr Colour ink{0.12, 0.12, 0.12};
 constexpr double tick_length = 5, minor_tick_length = 3, label_gap = 5;
 
-/// One line of a legend.
-struct LegendEntry {
+/// The key of a legend to one thing drawn: its sample and its label.
+struct LegendKey {
   std::string label;
   Colour colour;
   bool swatch = false;  ///< a filled square (bars, bands) instead of a line with its marker
@@ -24,7 +25,7 @@ struct LegendEntry {
   Marker marker = Marker::none;
 };
 
-struct Panel {
+struct ChartLayout {
   const Chart* chart = nullptr;
   Rect area, plot;            ///< all that the chart may use; the frame of its data
   double text = 12;           ///< size of tick labels (px)
@@ -51,13 +52,13 @@ struct Bar {
   double value = 0, error = 0;
 };
 
-/// Scales and places for a chart in `area`, its legend as asked or `legend` instead.
-Panel lay_out(const Chart& chart, const Rect& area, double text, Chart::Legend legend);
+/// Scales and places for a chart in `area`, its legend at `legend`, whatever the chart asks for; none without labels.
+ChartLayout lay_out(const Chart& chart, const Rect& area, double text, Chart::Legend legend);
 
-std::vector<LegendEntry> legend_entries(const Chart& chart);
-Vec2 legend_size(const Panel& panel, const std::vector<LegendEntry>& entries, double max_width);
+std::vector<LegendKey> legend_keys(const Chart& chart);
+Vec2 legend_size(const ChartLayout& layout, const std::vector<LegendKey>& keys, double max_width);
 
-std::vector<Bar> bars_of(const Panel& panel);
+std::vector<Bar> bars_of(const ChartLayout& layout);
 
 /// The printed value of a bar; it stands upright where bars are too narrow for it.
 struct ValueText {
@@ -65,27 +66,28 @@ struct ValueText {
   double size = 0, width = 0;  ///< px
   bool upward = false;
 };
-ValueText value_text(const Panel& panel, const Bar& bar);
+ValueText value_text(const ChartLayout& layout, const Bar& bar);
 /// The line of a series inside the plot area, simplified; pieces where values are missing or outside.
-std::vector<std::vector<Vec2>> curve_of(const Panel& panel, const Series& series);
+std::vector<std::vector<Vec2>> curve_of(const ChartLayout& layout, const Series& series);
 /// Places of the series' markers; long lines carry few of them.
-std::vector<Vec2> markers_of(const Panel& panel, const Series& series);
+std::vector<Vec2> markers_of(const ChartLayout& layout, const Series& series);
 /// What the data covers.
-Occupancy data_occupancy(const Panel& panel, const Sheet& sheet);
+Occupancy data_occupancy(const ChartLayout& layout, const Paper& paper);
 
-void draw_axes(Sheet& sheet, const Panel& panel);
-void draw_data(Sheet& sheet, const Panel& panel);    ///< bands, bars and lines
-void draw_points(Sheet& sheet, const Panel& panel);  ///< markers and error bars: over the frame
-void draw_legend(Sheet& sheet, const Panel& panel);
-void draw_marks(Sheet& sheet, const Panel& panel, Occupancy& taken);
+void draw_axes(Paper& paper, const ChartLayout& layout);
+void draw_data(Paper& paper, const ChartLayout& layout);    ///< bands, bars and lines
+void draw_points(Paper& paper, const ChartLayout& layout);  ///< markers and error bars: over the frame
+void draw_legend(Paper& paper, const ChartLayout& layout);
+void draw_marks(Paper& paper, const ChartLayout& layout, Occupancy& taken);
 
 /// The whole chart.
-void draw_chart(Sheet& sheet, const Chart& chart, const Rect& area, double text = 12);
+void draw_chart(Paper& paper, const Chart& chart, const Rect& area, double text = 12);
 
-/// Chart::width x height with the chart on it; throws std::invalid_argument when columns of the chart differ in length.
-Sheet sheet_of(const Chart& chart);
+/// Paper of Chart::width x height with the chart on it. Throws std::invalid_argument when columns of the chart
+/// differ in length.
+Paper paper_of(const Chart& chart);
 
-/// The ranges of the data, as facts for a picture's metadata: {"Extent x", "0 ... 0.31"}.
+/// The ranges of the data, as facts for a picture's metadata: {"Extent x", "0 to 0.31"}.
 Provenance extents(const Chart& chart);
 
 }  // namespace render

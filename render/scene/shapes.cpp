@@ -1,4 +1,4 @@
-#include "render/scene/scene_shapes.h"
+#include "render/scene/shapes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/core/errors.h"
-#include "render/offscreen/offscreen_window.h"
+#include "render/offscreen/window.h"
 
 namespace render {
 

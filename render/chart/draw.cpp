@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "render/chart/chart_panel.h"
+#include "render/chart/layout.h"
 
 namespace render {
 namespace {
@@ -41,10 +41,10 @@ bool in_a_corner(Chart::Legend legend) {
 
 /// Insets stay where they were asked for when no data lies there; else they move to the nearest place that covers
 /// least.
-std::vector<Rect> inset_places(const Panel& panel, Occupancy& taken) {
+std::vector<Rect> inset_places(const ChartLayout& layout, Occupancy& taken) {
   std::vector<Rect> places;
-  const Rect& p = panel.plot;
-  for (const Inset& inset : panel.chart->insets) {
+  const Rect& p = layout.plot;
+  for (const Inset& inset : layout.chart->insets) {
     const double width = inset.place[2] * p.width(), height = inset.place[3] * p.height();
     const auto at = [&](double left, double bottom) {
       const double x = p.left + left * p.width(), y = p.bottom - bottom * p.height();
@@ -72,43 +72,43 @@ std::vector<Rect> inset_places(const Panel& panel, Occupancy& taken) {
 }
 
 /// The layout with the legend where it was asked for, or in another corner, or below: where it covers no data.
-Panel with_free_legend(const Sheet& sheet, const Chart& chart, const Rect& area, double text) {
-  Panel panel = lay_out(chart, area, text, chart.legend);
-  if (!in_a_corner(panel.legend)) return panel;
+ChartLayout with_free_legend(const Paper& paper, const Chart& chart, const Rect& area, double text) {
+  ChartLayout layout = lay_out(chart, area, text, chart.legend);
+  if (!in_a_corner(layout.legend)) return layout;
   using enum Chart::Legend;
   for (Chart::Legend corner : {chart.legend, top_left, top_right, bottom_right, bottom_left}) {
-    panel = lay_out(chart, area, text, corner);
-    Occupancy taken = data_occupancy(panel, sheet);
-    inset_places(panel, taken);  // takes their places
-    if (panel.plot.holds(panel.legend_box) && taken.taken(panel.legend_box.grown(3)) == 0) return panel;
+    layout = lay_out(chart, area, text, corner);
+    Occupancy taken = data_occupancy(layout, paper);
+    inset_places(layout, taken);  // takes their places
+    if (layout.plot.holds(layout.legend_box) && taken.taken(layout.legend_box.grown(3)) == 0) return layout;
   }
   return lay_out(chart, area, text, below);
 }
 
 }  // namespace
 
-void draw_chart(Sheet& sheet, const Chart& chart, const Rect& area, double text) {
-  const Panel panel = with_free_legend(sheet, chart, area, text);
-  draw_data(sheet, panel);
-  Occupancy taken = data_occupancy(panel, sheet);
-  const std::vector<Rect> insets = inset_places(panel, taken);
-  if (panel.legend != Chart::Legend::none) taken.add(panel.legend_box, 3);
-  draw_marks(sheet, panel, taken);
-  draw_axes(sheet, panel);
-  draw_points(sheet, panel);
-  draw_legend(sheet, panel);
+void draw_chart(Paper& paper, const Chart& chart, const Rect& area, double text) {
+  const ChartLayout layout = with_free_legend(paper, chart, area, text);
+  draw_data(paper, layout);
+  Occupancy taken = data_occupancy(layout, paper);
+  const std::vector<Rect> insets = inset_places(layout, taken);
+  if (layout.legend != Chart::Legend::none) taken.add(layout.legend_box, 3);
+  draw_marks(paper, layout, taken);
+  draw_axes(paper, layout);
+  draw_points(paper, layout);
+  draw_legend(paper, layout);
   for (std::size_t i = 0; i < insets.size(); ++i) {
-    sheet.rectangle(insets[i], {1, 1, 1});
-    draw_chart(sheet, chart.insets[i].chart[0], insets[i], 0.86 * text);
+    paper.rectangle(insets[i], {1, 1, 1});
+    draw_chart(paper, chart.insets[i].chart[0], insets[i], 0.86 * text);
   }
 }
 
-Sheet sheet_of(const Chart& chart) {
+Paper paper_of(const Chart& chart) {
   check(chart);
-  Sheet sheet(chart.width, chart.height);
-  sheet.rectangle({0, 0, static_cast<double>(chart.width), static_cast<double>(chart.height)}, {1, 1, 1});
-  draw_chart(sheet, chart, {0, 0, static_cast<double>(chart.width), static_cast<double>(chart.height)});
-  return sheet;
+  Paper paper(chart.width, chart.height);
+  paper.rectangle({0, 0, static_cast<double>(chart.width), static_cast<double>(chart.height)}, {1, 1, 1});
+  draw_chart(paper, chart, {0, 0, static_cast<double>(chart.width), static_cast<double>(chart.height)});
+  return paper;
 }
 
 }  // namespace render
