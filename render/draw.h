@@ -12,10 +12,6 @@
 
 namespace render {
 
-/// Stable facts written into PNG text chunks and SVG metadata: {"Scenario", hash}, {"Figure", id}, {"Engine", version}.
-/// SVG also takes {"Title", ...} and {"Description", ...} for its <title> and <desc>.
-using Provenance = std::vector<std::pair<std::string, std::string>>;
-
 class Canvas {
  public:
   Canvas();  ///< throws dem::EnvironmentError when no off-screen GL context can be made

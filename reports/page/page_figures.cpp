@@ -9,7 +9,7 @@
 #include "reports/page/page.h"
 #include "reports/page/page_parts.h"
 #include "reports/page/page_tables.h"
-#include "reports/page/text.h"
+#include "reports/text.h"
 
 namespace reports {
 namespace {

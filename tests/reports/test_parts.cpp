@@ -13,7 +13,7 @@
 #include "reports/output/summary.h"
 #include "reports/page/page.h"
 #include "reports/page/page_parts.h"
-#include "reports/page/text.h"
+#include "reports/text.h"
 #include "tests/reports/synthetic.h"
 #include "tests/support/scratch.h"
 
