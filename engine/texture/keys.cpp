@@ -1,10 +1,11 @@
-// The scenario keys of the grain texture model, and the settings made of them.
-#include <cmath>
-
+// The scenario keys of the grain texture model, and the settings made of them. Tests declare and read their own.
 #include "engine/texture/keys.h"
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "engine/texture/loading/test.h"
 #include "engine/texture/model.h"
 
 namespace dem::texture {
@@ -12,10 +13,13 @@ namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-std::vector<Key> declare() {
+Key number(const char* path, const char* unit, double low, double high, const char* standard, const char* help) {
+  return {path, KeyType::real, unit, low, high, {}, standard, help};
+}
+
+// The rock, its specimen and the solver.
+std::vector<Key> declare_rock() {
   using enum KeyType;
-  const auto number = [](const char* path, const char* unit, double low, double high, const char* standard,
-                         const char* help) { return Key{path, real, unit, low, high, {}, standard, help}; };
   return {
       Key{"rock",
           text,
@@ -91,35 +95,19 @@ std::vector<Key> declare() {
           "name of a mineral: the specimen is of it alone, joined by flat joints throughout; empty: all minerals"},
       number("solver.damping", "", 0, 0.95, "0.7", "local damping alpha"),
       number("solver.time_step_factor", "", 0.01, 1, "0.8", "of the critical step from the stiffness sums"),
-      number("compression.rate", "", 1e-10, 1e-4, "1e-7", "platen strain a step"),
-      // Not below "compression.": a case depends on the rate that it runs at, wherever that was written.
-      number("confined_compression.rate", "", 0, 1e-4, "0.0",
-             "platen strain a step under confining pressure; 0: compression.rate"),
-      number("compression.ramp_strain", "", 1e-9, 1e-2, "2e-5", "strain over which the platens reach their speed"),
-      number("compression.stop", "", 0.05, 0.999, "0.8", "the test ends at this share of the peak, after it"),
-      number("compression.strain_limit", "", 1.05, 20, "3.0", "or at this multiple of the strain of the peak"),
-      number("compression.follow", "", 0, 20, "0.0",
-             "the test goes on after its end to this multiple of the strain of the peak, for the residual strength"),
-      number("compression.confining_pressure", "MPa", 0, 1000, "\"0 MPa\"",
-             "sigma_3 on a frictionless cylindrical wall; the test starts from this isotropic pressure"),
-      number("compression.confining_step", "kPa", 1e-3, 1000, "\"5 kPa\"",
-             "rise of the confining pressure a step, before the test"),
-      number("compression.sample_strain", "", 1e-8, 1e-3, "1e-5", "strain between samples"),
-      number("direct_tension.rate", "", 1e-10, 1e-4, "1e-8", "grip strain a step"),
-      number("direct_tension.ramp_strain", "", 1e-9, 1e-2, "2e-6", "strain over which the grips reach their speed"),
-      number("direct_tension.stop", "", 0.05, 0.999, "0.5", "the test ends at this share of the peak, after it"),
-      number("direct_tension.sample_strain", "", 1e-8, 1e-3, "1e-6", "strain between samples"),
-      number("direct_tension.grip", "", 0.01, 0.3, "0.05", "thickness of each gripped disc over the height"),
+  };
+}
+
+// What is read off, and which tests are run on which specimens.
+std::vector<Key> declare_study() {
+  using enum KeyType;
+  std::vector<std::string> names;
+  for (const TestEntry& test : tests()) names.emplace_back(test.name);
+  return {
       number("measure.gauge", "", 0.1, 1, "0.6", "length of the strain gauge over the height"),
       number("measure.stiffness_departure", "", 0.001, 0.5, "0.02",
              "share by which the axial stiffness leaves its plateau at crack initiation"),
-      Key{"tests",
-          texts,
-          "",
-          -inf,
-          inf,
-          {"compression", "direct_tension", "genesis"},
-          "",
+      Key{"tests", texts, "", -inf, inf, names, "",
           "tests to run on each specimen; genesis makes it and does not load it"},
       Key{"repeats",
           KeyType::integer,
@@ -170,13 +158,18 @@ std::vector<Key> declare() {
 }  // namespace
 
 std::span<const Key> keys() {
-  static const std::vector<Key> declared = declare();
+  static const std::vector<Key> declared = [] {
+    std::vector<Key> all = declare_rock();
+    const auto append = [&](const std::vector<Key>& more) { all.insert(all.end(), more.begin(), more.end()); };
+    for (const TestEntry& test : tests()) append(test.keys());
+    append(declare_study());
+    return all;
+  }();
   return declared;
 }
 
-Settings read_settings(const Scenario& s, TestKind test) {
+Settings read_settings(const Scenario& s, std::string_view test) {
   Settings r;
-  r.test = test;
   r.packing.vessel = {s.real("specimen.diameter"), s.real("specimen.height")};
   r.packing.radius_min = s.real("packing.minimum_radius");
   r.packing.radius_ratio = s.real("packing.radius_ratio");
@@ -245,21 +238,7 @@ Settings read_settings(const Scenario& s, TestKind test) {
   r.same_mineral_boundaries = s.boolean("texture.same_mineral_boundaries") && !r.one_mineral;
   r.damping = s.real("solver.damping");
   r.time_step_factor = s.real("solver.time_step_factor");
-  const bool compression = test == TestKind::compression;
-  const std::string group = test == TestKind::direct_tension ? "direct_tension." : "compression.";
-  r.rate = s.real(group + "rate");
-  r.ramp_strain = s.real(group + "ramp_strain");
-  r.stop = s.real(group + "stop");
-  r.sample_strain = s.real(group + "sample_strain");
-  r.strain_limit = s.real("compression.strain_limit");
-  r.follow = s.real("compression.follow");
-  r.confining_pressure = compression ? s.real("compression.confining_pressure") : 0;
-  r.confining_step = s.real("compression.confining_step");
-  r.grip = s.real("direct_tension.grip");
-  if (r.sample_strain < r.rate) {
-    throw s.error(group + "sample_strain", "samples are closer than steps",
-                  "write at least the value of " + group + "rate");
-  }
+  r.test = test_entry(test).read(s);
   r.gauge = s.real("measure.gauge");
   r.stiffness_departure = s.real("measure.stiffness_departure");
   return r;

@@ -8,9 +8,9 @@
 #include <cstdint>
 
 #include "engine/core/archive.h"
+#include "engine/texture/genesis/packing.h"
 #include "engine/texture/keys.h"
 #include "engine/texture/loading/loading.h"
-#include "engine/texture/genesis/packing.h"
 #include "engine/texture/results.h"
 
 namespace dem::texture {
@@ -57,9 +57,7 @@ CaseSpec make_case(const Scenario& base, const std::string& test, const Variant&
                       .with("texture.only_mineral", v.only_mineral)
                       .with("compression.confining_pressure", v.confining_pressure)
                       .with("seed", v.seed);
-  if (const double rate = base.real("confined_compression.rate"); v.confining_pressure > 0 && rate > 0) {
-    spec.scenario = spec.scenario.with("compression.rate", rate);
-  }
+  if (const auto resolve = test_entry(test).resolve) spec.scenario = resolve(spec.scenario);
   if (!base.reals("sweep.dip").empty() || v.dip != 0) spec.id += "_dip_" + word(dip);
   if (pressure > 0) spec.id += "_sigma3_" + word(pressure);
   if (v.seed_scale != base.real("texture.seed_scale")) spec.id += "_seed_scale_" + word(v.seed_scale);
@@ -78,12 +76,6 @@ CaseSpec make_case(const Scenario& base, const std::string& test, const Variant&
                      {"confining_pressure_MPa", pressure},
                      {"seed", static_cast<double>(v.seed)}};
   return spec;
-}
-
-TestKind kind_of(const std::string& test) {
-  return test == "compression" ? TestKind::compression
-         : test == "genesis"   ? TestKind::genesis
-                               : TestKind::direct_tension;
 }
 
 std::vector<double> swept(const Scenario& s, const std::string& sweep, const std::string& single) {
@@ -145,13 +137,14 @@ std::vector<CaseSpec> cases(const Scenario& scenario) {
     if (std::count(tests.begin(), tests.end(), test) > 1) {
       throw scenario.error("tests", "'" + test + "' is named twice", "name each test once");
     }
+    const bool confined = test_entry(test).confined;
     for (const Variant& v : variants) {
       Variant tested = v;
-      if (test != "compression") tested.confining_pressure = 0;  // others have none
+      if (!confined) tested.confining_pressure = 0;
       CaseSpec made = make_case(scenario, test, tested);
-      if (test != "compression" && std::ranges::find(list, made.id, &CaseSpec::id) != list.end()) continue;
-      const Settings settings = read_settings(made.scenario, kind_of(test));
-      if (kind_of(test) != TestKind::genesis) made.threads = threads_of(expected_spheres(settings.packing));
+      if (!confined && std::ranges::find(list, made.id, &CaseSpec::id) != list.end()) continue;
+      const Settings settings = read_settings(made.scenario, test);
+      if (settings.test.loads()) made.threads = threads_of(expected_spheres(settings.packing));
       list.push_back(std::move(made));
     }
   }
@@ -159,48 +152,45 @@ std::vector<CaseSpec> cases(const Scenario& scenario) {
 }
 
 // Runs the test to its end, from its checkpoint if there is one.
-LoadingTest load(const Specimen& specimen, const Settings& settings, const CaseSpec& spec, RunContext& context) {
+Loading load(const Specimen& specimen, const Settings& settings, const CaseSpec& spec, RunContext& context) {
   // Two threads pay from some thousand particles on: below, they mostly wait for each other.
   const auto threads = [useful = static_cast<int>(specimen.packing.radius.size() / 2000), &context] {
     return std::clamp(useful, 1, std::max(1, context.threads_now()));
   };
-  LoadingTest test(specimen, settings, threads());
+  Loading loading(specimen, settings, threads());
   if (!context.checkpoint.empty()) {
-    LoadingTest loaded = test;
-    std::string bytes;
-    if (load_checkpoint(context.checkpoint, spec.content, loaded).loaded) test = std::move(loaded);
+    Loading loaded = loading;
+    if (load_checkpoint(context.checkpoint, spec.content, loaded).loaded) loading = std::move(loaded);
   }
   using Clock = std::chrono::steady_clock;
   auto saved = Clock::now();
-  const bool compression = settings.test == TestKind::compression;
-  while (!test.ended()) {
+  const Test& test = settings.test;
+  while (!loading.ended()) {
     const bool stop = context.stopped();
     const bool due = std::chrono::duration<double>(Clock::now() - saved).count() > context.checkpoint_seconds;
     if ((stop || due) && !context.checkpoint.empty()) {
-      save_checkpoint(context.checkpoint, spec.content, test);
+      save_checkpoint(context.checkpoint, spec.content, loading);
       saved = Clock::now();
     }
     if (stop) throw Interrupted{};
-    test.set_threads(threads());
-    test.advance();
-    if (test.history().empty()) {
-      context.report(
-          {"confining pressure", test.assembly().step(), 0, 0, spec.scenario.real("compression.confining_pressure")});
+    loading.set_threads(threads());
+    loading.advance();
+    if (loading.history().empty()) {
+      context.report({std::string(test.before->words), loading.assembly().step(), 0, 0, test.confining_pressure});
       continue;
     }
-    const HistoryRow& row = test.history().back();
-    context.report({compression ? "compression" : "direct tension", static_cast<std::int64_t>(row.step),
-                    test.fraction(), row.platen_strain, row.axial_stress});
+    const HistoryRow& row = loading.history().back();
+    context.report({std::string(test.words), static_cast<std::int64_t>(row.step), loading.fraction(), row.platen_strain,
+                    row.axial_stress});
   }
-  return test;
+  return loading;
 }
 
 Record run(const CaseSpec& spec, RunContext& context) {
-  const TestKind kind = kind_of(std::get<std::string>(spec.parameters.front().second));
-  const Settings settings = read_settings(spec.scenario, kind);
+  const Settings settings = read_settings(spec.scenario, std::get<std::string>(spec.parameters.front().second));
   const Specimen specimen = make_specimen(settings, context);
-  Record record = kind == TestKind::genesis ? make_specimen_record(specimen, settings)
-                                            : make_record(specimen, settings, load(specimen, settings, spec, context));
+  Record record = settings.test.loads() ? make_record(specimen, settings, load(specimen, settings, spec, context))
+                                        : make_specimen_record(specimen, settings);
   record.model = "grain_texture";
   record.scenario = spec.scenario.name();
   record.case_id = spec.id;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "engine/texture/loading/characteristics.h"
+
 namespace dem::texture {
 namespace {
 
@@ -96,15 +98,15 @@ double strain_at(const std::vector<HistoryRow>& h, double step) {
 }
 
 // Cracks up to the end of the test; those of a test that was followed further are in its history.
-Table crack_table(const Specimen& specimen, const LoadingTest& test, double last_step) {
+Table crack_table(const Specimen& specimen, const Loading& loading, double last_step) {
   std::vector<double> time, strain, position, normal, area;
   std::vector<std::int32_t> mode, place, mineral_a, mineral_b, contact;
-  for (const Crack& c : test.assembly().cracks()) {
+  for (const Crack& c : loading.assembly().cracks()) {
     if (c.step > last_step) break;
     const BondSpec& bond = specimen.bonds[static_cast<std::size_t>(c.contact)];
     const auto mineral = [&](std::int32_t p) { return specimen.grains.mineral[static_cast<std::size_t>(p)]; };
-    time.push_back(c.step * test.assembly().time_step());
-    strain.push_back(strain_at(test.history(), c.step));
+    time.push_back(c.step * loading.assembly().time_step());
+    strain.push_back(strain_at(loading.history(), c.step));
     mode.push_back(c.shear);
     place.push_back(c.boundary);
     position.insert(position.end(), c.position.begin(), c.position.end());
@@ -161,16 +163,15 @@ Table history_table(const std::vector<HistoryRow>& h) {
 double cracks_in(const HistoryRow& r) { return r.cracks[0] + r.cracks[1] + r.cracks[2] + r.cracks[3]; }
 
 // Named moments, each with the nearest kept frame.
-void add_snapshots(Record& record, const LoadingTest& test, const Characteristics& c, bool compression,
-                   std::size_t end) {
-  const std::vector<HistoryRow>& h = test.history();
+void add_snapshots(Record& record, const Loading& loading, const Characteristics& c, std::size_t end) {
+  const std::vector<HistoryRow>& h = loading.history();
   std::vector<std::pair<std::string, std::size_t>> moments;
   const auto stress_row = [&](double stress) {
     std::size_t i = 0;
     while (i < c.peak && h[i].axial_stress < stress) ++i;
     return i;
   };
-  if (compression && c.damage) {
+  if (c.damage) {
     const double damage = h[*c.damage].axial_stress, peak = h[c.peak].axial_stress;
     if (c.initiation_stiffness) {
       moments.emplace_back("crack_initiation", *c.initiation_stiffness);
@@ -189,8 +190,8 @@ void add_snapshots(Record& record, const LoadingTest& test, const Characteristic
   moments.emplace_back("end", end);
   for (std::size_t k = 0; k < moments.size(); ++k) {
     const auto& [name, row] = moments[k];
-    const Frame* nearest = &test.frames().front();
-    for (const Frame& frame : test.frames()) {
+    const Frame* nearest = &loading.frames().front();
+    for (const Frame& frame : loading.frames()) {
       if (std::abs(static_cast<double>(frame.row) - static_cast<double>(row)) <
           std::abs(static_cast<double>(nearest->row) - static_cast<double>(row))) {
         nearest = &frame;
@@ -271,22 +272,19 @@ Record make_specimen_record(const Specimen& specimen, const Settings& settings) 
   return record;
 }
 
-Record make_record(const Specimen& specimen, const Settings& settings, const LoadingTest& test) {
-  const bool compression = settings.test == TestKind::compression;
-  const std::vector<HistoryRow>& h = test.history();
-  const double confining = settings.confining_pressure;
-  const Characteristics c = characterise(h, settings.stiffness_departure, compression, confining);
-  const std::size_t end = test.end().value_or(h.size() - 1);
+Record make_record(const Specimen& specimen, const Settings& settings, const Loading& loading) {
+  const Test& test = settings.test;
+  const std::vector<HistoryRow>& h = loading.history();
+  const double confining = test.confining_pressure;
+  const Characteristics c = characterise(h, settings.stiffness_departure, test.crack_stages, confining);
+  const std::size_t end = loading.end().value_or(h.size() - 1);
   Record record;
   const auto put = [&](const std::string& name, double value) { record.results.emplace_back(name, value); };
   if (c.young_modulus) put("young_modulus_GPa", *c.young_modulus * giga);
   if (c.poisson_ratio) put("poisson_ratio", *c.poisson_ratio);
-  put(!compression    ? "tensile_strength_MPa"
-      : confining > 0 ? "confined_strength_MPa"
-                      : "ucs_MPa",
-      h[c.peak].axial_stress * mega);
+  put(std::string(test.strength), h[c.peak].axial_stress * mega);
   put("peak_strain", h[c.peak].axial_strain);
-  if (settings.follow > 0 && compression) {
+  if (test.ending.follow > 0 && test.crack_stages) {
     // Mean over the last twentieth of the strain.
     double sum = 0, count = 0;
     for (const HistoryRow& r : h) {
@@ -301,7 +299,7 @@ Record make_record(const Specimen& specimen, const Settings& settings, const Loa
     put("crack_initiation_strain.axial_stiffness", h[*c.initiation_stiffness].axial_strain);
   }
   if (c.stress_at_strain) put("crack_initiation_MPa.strain_0_1_percent", *c.stress_at_strain * mega);
-  if (compression && c.initiation_cracks) {
+  if (c.initiation_cracks) {
     put("crack_initiation_MPa.one_percent_of_cracks", h[*c.initiation_cracks].axial_stress * mega);
   }
   if (c.initiation_volume)
@@ -341,8 +339,8 @@ Record make_record(const Specimen& specimen, const Settings& settings, const Loa
   put("particles", static_cast<double>(specimen.packing.radius.size()));
   put("contacts", static_cast<double>(specimen.bonds.size()));
   put("grains", static_cast<double>(specimen.seeds.radius.size()));
-  put("fresh_contacts", static_cast<double>(test.assembly().fresh_contacts()));
-  put("time_step_s", test.assembly().time_step());
+  put("fresh_contacts", static_cast<double>(loading.assembly().fresh_contacts()));
+  put("time_step_s", loading.assembly().time_step());
 
   record.checks.push_back(
       {"energy_residual", residual, residual_limit, residual <= residual_limit,
@@ -360,9 +358,9 @@ Record make_record(const Specimen& specimen, const Settings& settings, const Loa
   }
 
   add_specimen_tables(record, specimen, settings);
-  record.tables.push_back(crack_table(specimen, test, h[end].step));
+  record.tables.push_back(crack_table(specimen, loading, h[end].step));
   record.tables.push_back(history_table(h));
-  add_snapshots(record, test, c, compression, end);
+  add_snapshots(record, loading, c, end);
   return record;
 }
 
