@@ -5,8 +5,9 @@
 
 namespace dem::texture {
 
-/// Tables particles, grains, contacts, cracks, history, snapshots/NNNN; results by the names of summary.json; the checks
-/// energy_residual (<= 1e-2), equilibrium (<= 1e-2) and, under confining pressure, servo (<= 1e-2). Identity (case id, content, seed) is left to the caller.
+/// Tables particles, grains, contacts, cracks, history, snapshots/NNNN; results by the names of summary.json; the
+/// checks energy_residual (<= 1e-2), equilibrium (<= 1e-2) and, under confining pressure, servo (<= 1e-2). Identity
+/// (case id, content, seed) is left to the caller.
 Record make_record(const Specimen& specimen, const Settings& settings, const Loading& loading);
 
 /// The record of a specimen that is not loaded: tables particles, grains, contacts; the check packing_pressure.

@@ -1,6 +1,6 @@
 #pragma once
-// What every law must hold, whatever it is (laws.h gives them): values to compare with come from the stored energy, by central
-// differences, and from the work along a way.
+// What every law must hold, whatever it is (laws.h gives them): values to compare with come from the stored energy, by
+// central differences, and from the work along a way.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -14,7 +14,8 @@
 
 namespace dem_test {
 
-// Where the bodies of a law are taken: body 2 by `close` towards body 1, the rest small against it, body 1 along with it.
+// Where the bodies of a law are taken: body 2 by `close` towards body 1, the rest small against it, body 1 along with
+// it.
 template <class Law>
 std::array<Pose<double>, 2> poses_at(const Law& law, double close) {
   const double size = std::abs(close), turn = size / law.size;
@@ -37,8 +38,8 @@ void check_rest(Law law) {
   CHECK(std::abs(r.heat) < 1e-24 * law.stiffness * law.size * law.size);
 }
 
-// Forces and moments are the central differences of the stored energy over all twelve components of the poses. The moments of
-// frictional parts act at the contact point: they are the gradient up to the relative size of the motion.
+// Forces and moments are the central differences of the stored energy over all twelve components of the poses. The
+// moments of frictional parts act at the contact point: they are the gradient up to the relative size of the motion.
 template <class Law>
 void check_gradient(const Law& law, double close) {
   Law here = law;
@@ -74,8 +75,8 @@ void check_reaction(Law law, double close) {
   CHECK(length(cross(two.x - one.x, r.force[1]) + r.moment[0] + r.moment[1]) < 1e-13 * scale * law.size);
 }
 
-// On a way through pressing, shearing, turning, opening and closing again no step cools, and the work on the bodies is what
-// is stored and what has become heat.
+// On a way through pressing, shearing, turning, opening and closing again no step cools, and the work on the bodies is
+// what is stored and what has become heat.
 template <class Law>
 void check_dissipation(Law law, double reach, bool dissipates) {
   constexpr int steps = 20000;

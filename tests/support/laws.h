@@ -1,6 +1,7 @@
 #pragma once
-// Laws as their common test sees them (test_texture_laws.cpp): two bodies, whose poses the test sets, and what the law makes of them.
-// Two particles with a contact go through the solver's own forces and account; a wall is a body like any other.
+// Laws as their common test sees them (test_texture_laws.cpp): two bodies, whose poses the test sets, and what the law
+// makes of them. Two particles with a contact go through the solver's own forces and account; a wall is a body like any
+// other.
 #include <cmath>
 
 #include "engine/texture/laws/wall_contact.h"

@@ -1,6 +1,6 @@
 #pragma once
-// Linear contact of two spheres with friction: the law of contacts that form after installation, and of what is left of a
-// broken bond once its faces have slid or turned off each other (mismatched in kinematics.h).
+// Linear contact of two spheres with friction: the law of contacts that form after installation, and of what is left of
+// a broken bond once its faces have slid or turned off each other (mismatched in kinematics.h).
 //
 // As published (Cundall & Strack 1979; Potyondy & Cundall 2004; Zhao et al. 2021, sections 2.2 and 2.4, Appendix A):
 // r = min(R1, R2), L = R1 + R2, A = pi r^2.
@@ -11,15 +11,15 @@
 // As coded: with d = x2 - x1, n = d / |d| and a = R1 / (R1 + R2) for the place of the contact on the branch,
 //   g = |d| - L0
 //   s <- (1 - n n) (s + dt v),  v = v2 - v1 - (a w1 + (1 - a) w2) x d
-// where the elastic shear displacement s is the state: F_s = -ks s, cut to mu F_n in size. With F = F_n n - ks s on particle 2
-// and -F on particle 1, the moments about the centres are -a d x F and -(1 - a) d x F: momentum and angular momentum are
-// kept whatever F is. Stored energy U = (kn g^2 + ks s^2) / 2. The heat of a slide is its length times the mean friction
-// before and after (Liu et al. 2017, Eqs. 22-23), exact for the leapfrog.
+// where the elastic shear displacement s is the state: F_s = -ks s, cut to mu F_n in size. With F = F_n n - ks s on
+// particle 2 and -F on particle 1, the moments about the centres are -a d x F and -(1 - a) d x F: momentum and angular
+// momentum are kept whatever F is. Stored energy U = (kn g^2 + ks s^2) / 2. The heat of a slide is its length times the
+// mean friction before and after (Liu et al. 2017, Eqs. 22-23), exact for the leapfrog.
 //
-// Departures: the gap counts from the distance L0 at which the contact was found, or from that of the bond that it is left of,
-// so that it starts free of stress. The shear follows the contact plane by projection: it does not turn with the spin of
-// the two about n. What shear is left when the contact opens turns into heat, by the same rule. There are no dashpots: damping
-// is that of the particles.
+// Departures: the gap counts from the distance L0 at which the contact was found, or from that of the bond that it is
+// left of, so that it starts free of stress. The shear follows the contact plane by projection: it does not turn with
+// the spin of the two about n. What shear is left when the contact opens turns into heat, by the same rule. There are
+// no dashpots: damping is that of the particles.
 #include <algorithm>
 #include <numbers>
 

@@ -1,18 +1,19 @@
 #pragma once
 // Contact of a sphere with a rigid wall without friction: platens and the jacket.
 //
-// As published: the paper (Zhao et al. 2021) loads between frictionless rigid walls and gives no law for them. This is the linear
-// law of Potyondy & Cundall 2004 with what remains of A E_c / L where one side is a wall, A = pi R^2 and L = R:
+// As published (Cundall & Strack 1979): the linear law without friction. The stiffness follows the rule of the contacts of
+// spheres, A E_c / L (linear_contact.h), where one side is rigid: A = pi R^2, L = R.
 //   k = pi R E_c                                 N/m
 //   F = -k g  where g < 0, else nothing acts     N, away from the wall; gap g, m
 //
 // As coded: the gap is that between the surface of the sphere and the wall, less the gap g0 <= 0 at installation,
 //   platen at height z_w:    g = +-(z_w - z) - R - g0      force along z
 //   jacket of radius R_j:    g = R_j - |(x, y)| - R - g0   force towards the axis
-// Stored energy U = k g^2 / 2. Without friction the force passes through the centre: there is neither moment nor heat. The
-// reaction on the wall is -F.
+// Stored energy U = k g^2 / 2. Without friction the force passes through the centre: there is neither moment nor heat.
+// The reaction on the wall is -F.
 //
-// Departures: contacts that are there at installation start free of stress (g0); the curvature of the jacket has no part in k.
+// Departures: contacts that are there at installation start free of stress (g0); the curvature of the jacket has no
+// part in k.
 #include <numbers>
 
 #include "engine/texture/laws/vector_math.h"

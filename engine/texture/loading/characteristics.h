@@ -21,8 +21,8 @@ struct Characteristics {
   std::optional<std::size_t> damage;                ///< row: largest volumetric strain before the peak
 };
 
-/// `departure`: share by which the axial stiffness must leave its plateau (mean over 10 to 25 % of the peak). Shares of the
-/// peak are counted from the confining pressure (Pa), where the test starts.
+/// `departure`: share by which the axial stiffness must leave its plateau (mean over 10 to 25 % of the peak). Shares of
+/// the peak are counted from the confining pressure (Pa), where the test starts.
 Characteristics characterise(const std::vector<HistoryRow>& history, double departure, bool crack_stages,
                              double confining_pressure = 0);
 

@@ -1,8 +1,9 @@
 #pragma once
 // Compression between frictionless platens, with or without confining pressure.
 //
-// A confined test begins with the rise of an isotropic pressure on platens and jacket; strains count from its end, stresses
-// are forces over the section at that time, and the history begins there. The energy account counts from the beginning.
+// A confined test begins with the rise of an isotropic pressure on platens and jacket; strains count from its end,
+// stresses are forces over the section at that time, and the history begins there. The energy account counts from the
+// beginning.
 #include "engine/texture/loading/test.h"
 
 namespace dem::texture {

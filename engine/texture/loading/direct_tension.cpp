@@ -35,8 +35,9 @@ Test read(const Scenario& scenario) {
   Test test = direct_tension();
   read_pace(scenario, "direct_tension.", test);
   test.grip = scenario.real("direct_tension.grip");
-  // Where compressions are followed after their end, tension is followed as far. The content of a tension case does not hold
-  // that key: change it and records of before are kept. It wants a key of its own, with the next version of the physics.
+  // Where compressions are followed after their end, tension is followed as far. The content of a tension case does not
+  // hold that key: change it and records of before are kept. It wants a key of its own, with the next version of the
+  // physics.
   test.ending.follow = scenario.real("compression.follow");
   return test;
 }

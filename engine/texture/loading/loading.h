@@ -1,6 +1,6 @@
 #pragma once
-// The loading of one specimen by one test, from the first step to its end: what all tests share. The state is whole: a cut
-// test goes on to the same bits.
+// The loading of one specimen by one test, from the first step to its end: what all tests share. The state is whole: a
+// cut test goes on to the same bits.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -18,8 +18,8 @@ class Loading {
  public:
   Loading(const Specimen& specimen, const Settings& settings, int threads);
 
-  /// Goes on to the next sample, or further into the stage before the test proper, which has no samples. False when the test
-  /// has ended. Throws CaseError when the motion has blown up.
+  /// Goes on to the next sample, or further into the stage before the test proper, which has no samples. False when the
+  /// test has ended. Throws CaseError when the motion has blown up.
   bool advance();
   [[nodiscard]] bool ended() const { return ended_; }
   [[nodiscard]] double fraction() const;  ///< rough share of the test that is done

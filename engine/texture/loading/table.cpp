@@ -30,7 +30,7 @@ const TestEntry& test_entry(std::string_view name) {
   throw InputError(fmt::format("there is no test '{}'", name), fmt::format("the tests are {}", fmt::join(names, ", ")));
 }
 
-Section across(const Cylinder& vessel) {
+Section cross_section(const Cylinder& vessel) {
   return {std::numbers::pi / 4 * vessel.diameter * vessel.diameter, vessel.height};
 }
 

@@ -1,7 +1,8 @@
 #pragma once
-// What a test is. Each test has a file of its own (compression.h, direct_tension.h, genesis.h): it declares the scenario keys of the
-// test and reads them into a Test, plain values by which the specimen is held (assembly_input in setup.h), moved, sampled
-// and followed to its end (loading.h), and by which results are read off (results.h). tests() is the table of all.
+// What a test is. Each test has a file of its own (compression.h, direct_tension.h, genesis.h): it declares the
+// scenario keys of the test and reads them into a Test, plain values by which the specimen is held (assembly_input in
+// setup.h), moved, sampled and followed to its end (loading.h), and by which results are read off (results.h). tests()
+// is the table of all.
 //
 // A new test is one such file and one line in table.cpp.
 #include <cstdint>
@@ -34,7 +35,7 @@ struct Section {
 };
 
 /// Section and height of a cylinder, for tests along its axis.
-Section across(const Cylinder& vessel);
+Section cross_section(const Cylinder& vessel);
 
 /// What is done to the specimen before the test proper. It has no samples; strains count from its end.
 struct Stage {
@@ -61,7 +62,7 @@ struct Test {
   double ramp_strain = 2e-5;  ///< they reach their speed over this strain
 
   // samples and the end
-  Section (*section)(const Cylinder& vessel) = across;
+  Section (*section)(const Cylinder& vessel) = cross_section;
   double sample_strain = 1e-5;  ///< between samples
   Ending ending = {};
   double typical_strain = 1e-3;  ///< at the end of such tests; only the estimate of time left hangs on it
@@ -88,8 +89,8 @@ std::span<const TestEntry> tests();
 /// The test of that name. Throws InputError that names the known ones.
 const TestEntry& test_entry(std::string_view name);
 
-/// Reads what every test has from the keys of its group ("compression."): rate, ramp_strain, sample_strain, stop. Throws
-/// InputError when samples are closer than steps.
+/// Reads what every test has from the keys of its group ("compression."): rate, ramp_strain, sample_strain, stop.
+/// Throws InputError when samples are closer than steps.
 void read_pace(const Scenario& scenario, const std::string& group, Test& test);
 
 }  // namespace dem::texture

@@ -1,8 +1,8 @@
 #pragma once
 // The account of an assembly: the energy ledger, its samples, cracks in the order in which they happened.
 //
-// The ledger closes to the order of the step squared: kinetic energy m v- . v+ / 2, damping with the centred velocity, work of
-// the walls by the mean force over the drift, slip and breaking heat as the exact drop of stored energy.
+// The ledger closes to the order of the step squared: kinetic energy m v- . v+ / 2, damping with the centred velocity,
+// work of the walls by the mean force over the drift, slip and breaking heat as the exact drop of stored energy.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -43,8 +43,8 @@ struct Sample {
   Ledger ledger;
 };
 
-/// What the contacts of a block have turned into heat since the beginning, J; what they store at the sample; and their cracks
-/// since the last one.
+/// What the contacts of a block have turned into heat since the beginning, J; what they store at the sample; and their
+/// cracks since the last one.
 struct BlockAccount {
   double friction = 0, bond_tension = 0, bond_shear = 0, elastic = 0;
   std::vector<Crack> cracks;

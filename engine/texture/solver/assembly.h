@@ -1,10 +1,10 @@
 #pragma once
 // An assembly of bonded spheres in explicit motion: the solver of the grain texture model.
 //
-// It composes the parts of a step and runs them on threads: the forces of blocks of contacts (forces.h) with the events among
-// them (events.h), the walls (walls.h), the motion of the particles (motion.h), the account (account.h), and now and then the search for
-// new neighbours (neighbours.h). Slabs (slabs.h) say what may run side by side; the bits do not depend on the number of
-// threads.
+// It composes the parts of a step and runs them on threads: the forces of blocks of contacts (forces.h) with the events
+// among them (events.h), the walls (walls.h), the motion of the particles (motion.h), the account (account.h), and now
+// and then the search for new neighbours (neighbours.h). Slabs (slabs.h) say what may run side by side; the bits do not
+// depend on the number of threads.
 #include <cstdint>
 #include <vector>
 

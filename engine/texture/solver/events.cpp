@@ -11,9 +11,9 @@ namespace {
 
 Vec3 array(const Triple<double>& t) { return {t.x, t.y, t.z}; }
 
-// A broken joint whose faces have lost each other becomes a contact of spheres, with the same stiffness and distance at rest.
-// Its shear and its couples are let go: what they had stored turns into heat (never less than nothing, as the mean over the
-// elements of a convex energy is at least the energy of the mean gap).
+// A broken joint whose faces have lost each other becomes a contact of spheres, with the same stiffness and distance at
+// rest. Its shear and its couples are let go: what they had stored turns into heat (never less than nothing, as the
+// mean over the elements of a convex energy is at least the energy of the mean gap).
 void roll(Block& block, Particles& particles, PartlyBrokenJoint& joint, const Action<double>& action) {
   const Pose<double> one = particles.at(joint.first), two = particles.at(joint.second);
   const Motion<double> m = motion(one, two, joint.reference, joint.share_one, joint.reference_length);
@@ -48,7 +48,8 @@ void roll(Block& block, Particles& particles, ParallelBondPack& pack, int lane) 
   const Motion<double> m = motion(particles.at(contact.first), particles.at(contact.second),
                                   {get(F::dx), get(F::dy), get(F::dz)}, get(F::share_one), get(F::length));
   const Triple<double> shear{get(F::shear_x), get(F::shear_y), get(F::shear_z)};
-  // Take back what the pack added: the contact acts with the others of its kind, in this same step, after the slide of it.
+  // Take back what the pack added: the contact acts with the others of its kind, in this same step, after the slide of
+  // it.
   const Triple<double> f = (-law.normal * std::min(m.gap, 0.0)) * m.n - law.shear * shear;
   particles.add(contact.first, contact.second,
                 Action<double>{} - action_at_contact(m, get(F::share_one), f, Triple<double>{0, 0, 0}));

@@ -8,8 +8,8 @@
 
 namespace dem::texture {
 
-/// Adds what the contacts of the block do to their particles at the end of `step`: intact joints, parallel bonds, broken joints,
-/// contacts of spheres, in this order. Contacts slip and break on the way.
+/// Adds what the contacts of the block do to their particles at the end of `step`: intact joints, parallel bonds,
+/// broken joints, contacts of spheres, in this order. Contacts slip and break on the way.
 void add_forces(Block& block, Particles& particles, const ContactRules& rules, const Kernels& kernels,
                 std::int64_t step);
 

@@ -63,7 +63,8 @@ class CellGrid {
     }
   }
 
-  /// Calls visit(j) for the particles j of the 27 cells round that of a pose, cell by cell, in ascending order within each.
+  /// Calls visit(j) for the particles j of the 27 cells round that of a pose, cell by cell, in ascending order within
+  /// each.
   template <class Visit>
   void around(const Row8& pose, const Visit& visit) const {
     const Cell c = cell_of(pose);

@@ -27,8 +27,8 @@ class Neighbours {
   std::vector<Row8> found_at_;  ///< poses when the near pairs were last found
 };
 
-/// Candidates of the block that touch become contacts of spheres, free of stress where they are: the motion of the few steps
-/// since the last look costs no energy.
+/// Candidates of the block that touch become contacts of spheres, free of stress where they are: the motion of the few
+/// steps since the last look costs no energy.
 void form_contacts(Block& block, const Particles& particles, const ContactRules& rules);
 
 }  // namespace dem::texture

@@ -51,8 +51,9 @@ struct Particles {
     put(two.v + 4, a.moment_2);
   }
 
-  /// Work of an action over half of the last drift, J; negative while a bond is stretched. The force that a crack takes away
-  /// at the end of a step would have done half of its work over that step; what is taken away with it was never stored.
+  /// Work of an action over half of the last drift, J; negative while a bond is stretched. The force that a crack takes
+  /// away at the end of a step would have done half of its work over that step; what is taken away with it was never
+  /// stored.
   [[nodiscard]] double half_work(std::int32_t first, std::int32_t second, const Action<double>& a) const {
     const Row8 &v1 = row(velocity, first), &v2 = row(velocity, second);
     return 0.5 * step *

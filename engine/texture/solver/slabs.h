@@ -1,7 +1,7 @@
 #pragma once
 // Slabs along z, each thicker than the reach of a contact before failure. Threads work on them in parallel, then on the
-// contacts between even and odd pairs of slabs: every particle receives its forces in one fixed order, and the bits do not
-// depend on the number of threads.
+// contacts between even and odd pairs of slabs: every particle receives its forces in one fixed order, and the bits do
+// not depend on the number of threads.
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -22,7 +22,8 @@ struct Slabs {
   [[nodiscard]] std::size_t count() const { return begin.size() - 1; }
   [[nodiscard]] std::size_t of_particle(std::size_t particle) const { return static_cast<std::size_t>(of[particle]); }
 
-  // Blocks of contacts: one a slab, one a pair of neighbours, one for contacts that failure made between slabs further apart.
+  // Blocks of contacts: one a slab, one a pair of neighbours, one for contacts that failure made between slabs further
+  // apart.
   [[nodiscard]] std::size_t blocks() const { return 2 * count(); }
   [[nodiscard]] std::size_t block_of(std::int32_t first, std::int32_t second) const;
 };

@@ -1,10 +1,10 @@
 #pragma once
 // What holds a specimen from outside: platens or grips at its ends, a jacket round its sides.
 //
-// Platens are frictionless planes, the jacket a frictionless cylinder round the z axis (laws/wall_contact.h). Walls that carry a
-// pressure have no mass: at each step each of them goes to where its contacts carry the pressure, by one Newton step from
-// the forces of the step before; the jacket foresees that particles go on pushing as they did. Particles in a grip follow it
-// without turning.
+// Platens are frictionless planes, the jacket a frictionless cylinder round the z axis (laws/wall_contact.h). Walls
+// that carry a pressure have no mass: at each step each of them goes to where its contacts carry the pressure, by one
+// Newton step from the forces of the step before; the jacket foresees that particles go on pushing as they did.
+// Particles in a grip follow it without turning.
 //
 // The work of a wall is the mean of its force before and after a drift, times the drift.
 #include <array>
@@ -24,7 +24,8 @@ class Walls {
 
   /// Speeds of the lower and upper platen or grip along z (m/s), reached linearly over `ramp` steps from now.
   void drive(double lower, double upper, std::int64_t ramp);
-  /// Pressure (Pa) on the jacket, and on both platens until they are driven, reached linearly over `ramp` steps from now.
+  /// Pressure (Pa) on the jacket, and on both platens until they are driven, reached linearly over `ramp` steps from
+  /// now.
   void confine(double pressure, std::int64_t ramp);
 
   // A step, slab by slab but for move(). Of one slab: by one thread at a time.
@@ -32,14 +33,15 @@ class Walls {
   void press(std::size_t slab, Particles& particles);
   /// Moves all walls on by a step; after press() of all slabs, before hold() of any.
   void move(double step);
-  /// Takes the forces on the held particles of a slab for those of their grips, and gives them the speed of it. Returns twice
-  /// their kinetic energy, J: it is not part of the account.
+  /// Takes the forces on the held particles of a slab for those of their grips, and gives them the speed of it. Returns
+  /// twice their kinetic energy, J: it is not part of the account.
   double hold(std::size_t slab, Particles& particles);
 
   /// Particles that have come nearer to a wall than `skin` (m) get a contact with it.
   void meet(const Particles& particles, const Slabs& slabs, double skin);
 
-  /// Adds the stiffness (N/m) of the contacts to the diagonals of their particles (three translations, three rotations).
+  /// Adds the stiffness (N/m) of the contacts to the diagonals of their particles (three translations, three
+  /// rotations).
   void add_stiffness(std::vector<std::array<double, 6>>& diagonal) const;
   /// Forces and places of the walls, the confining pressure, work and stored energy of the contacts, at the last step.
   void report(Sample& sample) const;
