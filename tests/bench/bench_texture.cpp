@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 
+#include "engine/texture/solver/assembly.h"
 #include "tests/support/granite.h"
 
 using namespace dem::texture;
