@@ -1,6 +1,9 @@
-// Random streams and content hashes against published values.
+// Random streams, content hashes and base64 against published values.
 #include <doctest/doctest.h>
 
+#include <string>
+
+#include "engine/core/base64.h"
 #include "engine/core/hash.h"
 #include "engine/core/random.h"
 
@@ -16,6 +19,19 @@ TEST_CASE("SHA-256 gives the answers of FIPS 180-4") {
   CHECK(dem::sha256("") == "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   CHECK(dem::sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq") ==
         "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+  CHECK(dem::sha256(std::string(1'000'000, 'a')) == "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+}
+
+TEST_CASE("base64 gives the answers of RFC 4648") {
+  CHECK(dem::base64("") == "");
+  CHECK(dem::base64("f") == "Zg==");
+  CHECK(dem::base64("fo") == "Zm8=");
+  CHECK(dem::base64("foo") == "Zm9v");
+  CHECK(dem::base64("foob") == "Zm9vYg==");
+  CHECK(dem::base64("fooba") == "Zm9vYmE=");
+  CHECK(dem::base64("foobar") == "Zm9vYmFy");
+  CHECK(dem::base64(std::string_view("\0\xfb\xff", 3)) == "APv/");
+  CHECK(dem::base64(std::string(300, '\0')) == std::string(400, 'A'));  // no line breaks
 }
 
 TEST_CASE("streams of different purpose or seed do not meet, the same stream repeats") {
