@@ -4,7 +4,7 @@
 # What a bare Debian 12 needs to build and to run.
 packages="g++ cmake ninja-build pkg-config libvtk9-dev libopenmpi-dev libosmesa6-dev libglew-dev libpng-dev libhdf5-dev
 libtomlplusplus-dev libcxxopts-dev libfmt-dev nlohmann-json3-dev libkainjow-mustache-dev
-libboost-dev libeigen3-dev libssl-dev
+libboost-dev libeigen3-dev libssl-dev librandom123-dev
 doctest-dev tidy weasyprint fonts-dejavu-core poppler-utils"
 build="$root/build"
 jobs=$(nproc 2>/dev/null || echo 2)

@@ -12,6 +12,16 @@ TEST_CASE("Philox 4x32-10 gives the known answers of Random123") {
         std::array<std::uint32_t, 4>{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8});
   CHECK(dem::philox({0xffffffff, 0xffffffff, 0xffffffff, 0xffffffff}, {0xffffffff, 0xffffffff}) ==
         std::array<std::uint32_t, 4>{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd});
+  CHECK(dem::philox({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, {0xa4093822, 0x299f31d0}) ==
+        std::array<std::uint32_t, 4>{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1});
+}
+
+TEST_CASE("the numbers of a stream are part of the results: they stay what they are") {
+  dem::RandomStream a(0x123456789abcdef, dem::Purpose::test_data), b(0x123456789abcdef, dem::Purpose::test_data, 7);
+  for (const std::uint64_t bits : {0xb43edf95182300daULL, 0xb16f6f11af2e2c15ULL, 0x336922d34dbe20b9ULL})
+    CHECK(a.bits() == bits);
+  for (const std::uint64_t bits : {0x39d12d3668fe7f9cULL, 0x06f705ffa9c26199ULL, 0x726d9381d897ff48ULL})
+    CHECK(b.bits() == bits);
 }
 
 TEST_CASE("SHA-256 gives the answers of FIPS 180-4") {
