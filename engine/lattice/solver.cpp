@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 
+#include "engine/core/cell_grid.h"
 #include "engine/core/errors.h"
 #include "engine/lattice/grid.h"
 #include "engine/lattice/team.h"
@@ -430,14 +431,8 @@ std::array<double, 3> Solver::momentum() const {
 std::int64_t Solver::unseen_contacts() const {
   const double d = impl_->setup.micro.diameter;
   std::vector<std::array<double, 3>> x = displacement();
-  std::map<std::array<std::int64_t, 3>, Elements> cells;
   for (std::size_t e = 0; e < x.size(); ++e) {
-    std::array<std::int64_t, 3> cell{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      x[e][i] += impl_->block.position[e][i];
-      cell[i] = static_cast<std::int64_t>(std::floor(x[e][i] / d));
-    }
-    cells[cell].push_back(static_cast<std::int32_t>(e));
+    for (std::size_t i = 0; i < 3; ++i) x[e][i] += impl_->block.position[e][i];
   }
   const auto near = [&](std::int32_t a, std::int32_t b) {
     double r2 = 0;
@@ -451,16 +446,11 @@ std::int64_t Solver::unseen_contacts() const {
   for (const Block::Bond& b : impl_->block.bonds) bonded.emplace_back(std::min(b.a, b.b), std::max(b.a, b.b));
   std::sort(bonded.begin(), bonded.end());
   std::int64_t count = 0;
-  for (const auto& [cell, members] : cells) {
-    for (std::int64_t i = 0; i < 27; ++i) {
-      const auto other = cells.find({cell[0] + i % 3 - 1, cell[1] + i / 3 % 3 - 1, cell[2] + i / 9 - 1});
-      if (other == cells.end()) continue;
-      for (const std::int32_t a : members) {
-        for (const std::int32_t b : other->second) {
-          if (a < b && near(a, b) && !std::binary_search(bonded.begin(), bonded.end(), std::pair{a, b})) ++count;
-        }
-      }
-    }
+  const CellGrid grid(x.size(), d, [&](std::size_t e) { return x[e]; });
+  for (std::size_t e = 0; e < x.size(); ++e) {
+    grid.around(x[e], [&, a = static_cast<std::int32_t>(e)](std::int32_t b) {
+      if (a < b && near(a, b) && !std::binary_search(bonded.begin(), bonded.end(), std::pair{a, b})) ++count;
+    });
   }
   return count;
 }

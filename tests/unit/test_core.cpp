@@ -1,11 +1,16 @@
-// Random streams, content hashes and base64 against published values.
+// Random streams, content hashes and base64 against published values; cells and orders of points.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include "engine/core/base64.h"
+#include "engine/core/cell_grid.h"
 #include "engine/core/hash.h"
 #include "engine/core/random.h"
+#include "engine/core/space_filling.h"
 
 TEST_CASE("Philox 4x32-10 gives the known answers of Random123") {
   CHECK(dem::philox({0, 0, 0, 0}, {0, 0}) ==
@@ -56,4 +61,62 @@ TEST_CASE("streams of different purpose or seed do not meet, the same stream rep
   }
   CHECK(differs);
   CHECK(mean == doctest::Approx(0.5).epsilon(0.02));
+}
+
+TEST_CASE("a cell grid finds every near pair, in one order") {
+  using Vec3 = std::array<double, 3>;
+  dem::RandomStream random(1, dem::Purpose::test_data);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 400; ++i) points.push_back({random.uniform(-3, 2), random.uniform(0, 4), random.uniform(1, 1.5)});
+  points.push_back({1e12, 2, 1});  // flew off, with a neighbour
+  points.push_back({1e12, 2.5, 1});
+  points.push_back({std::nan(""), 2, 1});
+  constexpr double edge = 0.7;
+  const auto near = [&](std::size_t i, std::size_t j) {
+    const Vec3 &a = points[i], &b = points[j];
+    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) <= edge;
+  };
+  for (const int most : {1, 3, 200}) {
+    CAPTURE(most);
+    const dem::CellGrid grid(
+        points.size(), edge, [&](std::size_t i) { return points[i]; }, most);
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      std::vector<std::size_t> all, found;
+      for (std::size_t j = 0; j < points.size(); ++j) {
+        if (near(i, j)) all.push_back(j);
+      }
+      grid.around(points[i], [&](std::int32_t j) {
+        if (near(i, static_cast<std::size_t>(j))) found.push_back(static_cast<std::size_t>(j));
+      });
+      std::sort(found.begin(), found.end());
+      CHECK(found == all);
+    }
+  }
+  const std::vector<Vec3> row{{2.5, 0, 0}, {0.5, 0, 0}, {1.5, 0, 0}, {0.6, 1.1, 0}, {1.6, 0, 0}, {1.5, 0, 1.1}};
+  const dem::CellGrid grid(row.size(), 1, [&](std::size_t i) { return row[i]; });
+  std::vector<std::int32_t> visited;
+  grid.around({1.5, 0, 0}, [&](std::int32_t j) { visited.push_back(j); });
+  CHECK(visited == std::vector<std::int32_t>{1, 2, 4, 0, 3, 5});  // x fastest, then y, then z; in a cell by number
+  const dem::CellGrid empty(0, 1, [&](std::size_t i) { return row[i]; });
+  empty.around({0, 0, 0}, [](std::int32_t) { FAIL("there is no point"); });
+}
+
+TEST_CASE("a Morton code takes the bits of x, y and z in turn") {
+  CHECK(dem::morton(1, 0, 0) == 1);
+  CHECK(dem::morton(0, 1, 0) == 2);
+  CHECK(dem::morton(0, 0, 1) == 4);
+  CHECK(dem::morton(0x1fffff, 0x1fffff, 0x1fffff) == 0x7fffffffffffffffULL);
+  CHECK(dem::morton(0x200000, 0, 0) == 0);  // the 22nd bit is not taken
+  std::uint64_t code = 0;
+  for (unsigned b = 0; b < 21; ++b) {
+    code |= std::uint64_t{0x15a5a5U >> b & 1U} << 3 * b | std::uint64_t{0x0c3c3cU >> b & 1U} << (3 * b + 1) |
+            std::uint64_t{0x1f00ffU >> b & 1U} << (3 * b + 2);
+  }
+  CHECK(dem::morton(0x15a5a5, 0x0c3c3c, 0x1f00ff) == code);
+}
+
+TEST_CASE("points are ordered by slab, along the curve, and by number where they share a cell") {
+  const std::vector<dem::SlabCell> cells{{1, 0, 0, 0}, {0, 1, 1, 0}, {0, 0, 0, 1}, {0, 1, 1, 0}, {0, 1, 0, 0}};
+  const auto order = dem::slab_order<std::int32_t>(cells.size(), [&](std::size_t i) { return cells[i]; });
+  CHECK(order == std::vector<std::int32_t>{4, 1, 3, 2, 0});
 }

@@ -1,6 +1,7 @@
 // The step of an assembly: forces, events, motion, account.
 #include "engine/texture/solver/lanes.h"  // first: see there
 
+#include "engine/core/cell_grid.h"
 #include "engine/texture/solver/assembly.h"
 #include "engine/texture/solver/packs.h"
 #include "engine/texture/laws/parallel_bond.h"
@@ -559,14 +560,7 @@ void Assembly::find_near_pairs() {
     return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint64_t>(std::max(a, b));
   };
   double largest = 0;
-  std::array<double, 3> low = {huge, huge, huge}, high = {-huge, -huge, -huge};
-  for (const Row8& p : pose_) {
-    largest = std::max(largest, p.v[3]);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], p.v[axis]);
-      high[axis] = std::max(high[axis], p.v[axis]);
-    }
-  }
+  for (const Row8& p : pose_) largest = std::max(largest, p.v[3]);
   for (Block& block : blocks_) {
     block.candidates.clear();
     for (std::size_t slot = 0; slot < block.joint_contact.size(); ++slot) {
@@ -586,46 +580,17 @@ void Assembly::find_near_pairs() {
   std::sort(known.begin(), known.end());
 
   // Cells as wide as the reach; fragments far out share the rim cells.
-  const double reach = 2 * largest + skin_;
-  std::array<std::int64_t, 3> cells{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    cells[axis] = std::clamp<std::int64_t>(static_cast<std::int64_t>((high[axis] - low[axis]) / reach) + 1, 1, 200);
-  }
-  const auto cell_of = [&](const Row8& p) {
-    std::array<std::int64_t, 3> c{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      c[axis] = std::min(static_cast<std::int64_t>((p.v[axis] - low[axis]) / reach), cells[axis] - 1);
-    }
-    return c;
-  };
-  const auto flat = [&](const std::array<std::int64_t, 3>& c) {
-    return static_cast<std::size_t>((c[2] * cells[1] + c[1]) * cells[0] + c[0]);
-  };
-  std::vector<std::int32_t> head(static_cast<std::size_t>(cells[0] * cells[1] * cells[2]), -1), next(n, -1);
-  for (std::size_t i = n; i-- > 0;) {
-    const std::size_t c = flat(cell_of(pose_[i]));
-    next[i] = head[c];
-    head[c] = static_cast<std::int32_t>(i);
-  }
+  const auto place = [&](std::size_t i) { return array(triple(pose_[i], 0)); };
+  const CellGrid grid(n, 2 * largest + skin_, place, 200);
   for (std::size_t i = 0; i < n; ++i) {
-    const auto c = cell_of(pose_[i]);
-    for (std::int64_t dz = -1; dz <= 1; ++dz) {
-      for (std::int64_t dy = -1; dy <= 1; ++dy) {
-        for (std::int64_t dx = -1; dx <= 1; ++dx) {
-          const std::array<std::int64_t, 3> at = {c[0] + dx, c[1] + dy, c[2] + dz};
-          if (at[0] < 0 || at[1] < 0 || at[2] < 0 || at[0] >= cells[0] || at[1] >= cells[1] || at[2] >= cells[2])
-            continue;
-          for (std::int32_t j = head[flat(at)]; j >= 0; j = next[static_cast<std::size_t>(j)]) {
-            if (static_cast<std::size_t>(j) <= i) continue;
-            const Triple<double> d = triple(pose_[static_cast<std::size_t>(j)], 0) - triple(pose_[i], 0);
-            const double limit = pose_[i].v[3] + pose_[static_cast<std::size_t>(j)].v[3] + skin_;
-            const auto first = static_cast<std::int32_t>(i);
-            if (dot(d, d) >= limit * limit || std::binary_search(known.begin(), known.end(), key(first, j))) continue;
-            blocks_[static_cast<std::size_t>(block_of(first, j))].candidates.push_back({first, j});
-          }
-        }
-      }
-    }
+    grid.around(place(i), [&](std::int32_t j) {
+      if (static_cast<std::size_t>(j) <= i) return;
+      const Triple<double> d = triple(pose_[static_cast<std::size_t>(j)], 0) - triple(pose_[i], 0);
+      const double limit = pose_[i].v[3] + pose_[static_cast<std::size_t>(j)].v[3] + skin_;
+      const auto first = static_cast<std::int32_t>(i);
+      if (dot(d, d) >= limit * limit || std::binary_search(known.begin(), known.end(), key(first, j))) return;
+      blocks_[static_cast<std::size_t>(block_of(first, j))].candidates.push_back({first, j});
+    });
   }
 
   // Particles that have come near a platen since.
