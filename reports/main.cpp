@@ -13,6 +13,7 @@
 #include <set>
 
 #include "engine/core/errors.h"
+#include "engine/core/instruction_set.h"
 #include "engine/study/progress.h"
 #include "engine/study/study.h"
 #include "render/draw.h"
@@ -203,6 +204,7 @@ bool run(const dem::Study& study, const cli::CommandLine& line, dem::ProgressPri
 int run(const cli::CommandLine& line) {
   const std::vector<dem::Study> studies = read_studies(line);
   if (line.pdf) require_weasyprint();
+  (void)dem::instruction_sets();  // a wrong DEM_SIMD is found before anything runs
   listen_to_signals();
   dem::ProgressPrinter progress = printer(line.quiet);
   std::optional<render::Canvas> canvas;

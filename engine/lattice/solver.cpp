@@ -18,15 +18,16 @@ namespace {
 
 using Elements = std::vector<std::int32_t>;
 
-const Kernel& choose_kernel(std::string_view wanted) {
-  const auto can = kernels();
-  const std::string_view name = wanted.empty() ? can.back() : wanted;
-  if (std::find(can.begin(), can.end(), name) == can.end()) {
-    throw InputError(fmt::format("the kernel '{}' is not there for this processor", name),
-                     fmt::format("it has {}", fmt::join(can, ", ")));
+const Kernel& kernel_of(InstructionSet set) {
+  if (!processor_has(set)) throw InputError(fmt::format("this processor does not have {}", name_of(set)));
+  switch (set) {
+    case InstructionSet::avx512:
+      return kernel_avx512();
+    case InstructionSet::avx2:
+      return kernel_avx2();
+    case InstructionSet::sse2:
+      break;
   }
-  if (name == "avx512") return kernel_avx512();
-  if (name == "avx2") return kernel_avx2();
   return kernel_sse2();
 }
 
@@ -99,15 +100,6 @@ const Setup& checked(const Setup& s) {
 
 }  // namespace
 
-std::vector<std::string_view> kernels() {
-  std::vector<std::string_view> can{"sse2"};
-  if (__builtin_cpu_supports("avx2")) can.push_back("avx2");
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) {
-    can.push_back("avx512");
-  }
-  return can;
-}
-
 struct Solver::Impl {
   Block block;
   Setup setup;
@@ -126,7 +118,7 @@ struct Solver::Impl {
   Impl(const Block& b, const Setup& s)
       : block(b),
         setup(s),
-        kernel(choose_kernel(s.kernel)),
+        kernel(kernel_of(s.set ? *s.set : widest_set())),
         grid(b, kernel.lanes, threads_lent(s.threads), s.gravity != 0),
         constants(constants_of(s, grid)) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -376,6 +368,18 @@ struct Solver::Impl {
   }
 };
 
+InstructionSet fastest_set(const Block& block, Setup setup) {
+  setup.threads = 1;
+  const int steps = std::clamp(static_cast<int>(5e3 / static_cast<double>(block.bonds.size())), 1, 50);
+  std::map<InstructionSet, Solver> solvers;  // each made in its first turn, which is never its shortest
+  return dem::fastest_set([&](InstructionSet set) {
+    setup.set = set;
+    const auto [solver, fresh] = solvers.try_emplace(set, block, setup);
+    const double nudge = fresh ? 1e-9 * setup.micro.diameter : 0;  // of the planes, so that something moves
+    solver->second.run(steps, nudge, -nudge);
+  });
+}
+
 Solver::Solver(const Block& block, const Setup& setup) { impl_ = std::make_unique<Impl>(block, checked(setup)); }
 Solver::~Solver() = default;
 Solver::Solver(Solver&&) noexcept = default;
@@ -387,7 +391,6 @@ Sample Solver::sampled_step(double low, double high) { return impl_->sample(low,
 const std::vector<Crack>& Solver::cracks() const { return impl_->cracks; }
 std::int64_t Solver::step() const { return impl_->step; }
 double Solver::strain() const { return impl_->face_strain(impl_->setup.axis); }
-std::string_view Solver::kernel() const { return impl_->kernel.name; }
 std::size_t Solver::bytes() const { return impl_->grid.bytes(); }
 
 std::vector<std::array<double, 3>> Solver::displacement() const {

@@ -1,14 +1,18 @@
-// Random streams, content hashes and base64 against published values; cells and orders of points.
+// Random streams, content hashes and base64 against published values; cells and orders of
+// points; instruction sets.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "engine/core/base64.h"
 #include "engine/core/cell_grid.h"
+#include "engine/core/errors.h"
 #include "engine/core/hash.h"
+#include "engine/core/instruction_set.h"
 #include "engine/core/random.h"
 #include "engine/core/space_filling.h"
 
@@ -119,4 +123,43 @@ TEST_CASE("points are ordered by slab, along the curve, and by number where they
   const std::vector<dem::SlabCell> cells{{1, 0, 0, 0}, {0, 1, 1, 0}, {0, 0, 0, 1}, {0, 1, 1, 0}, {0, 1, 0, 0}};
   const auto order = dem::slab_order<std::int32_t>(cells.size(), [&](std::size_t i) { return cells[i]; });
   CHECK(order == std::vector<std::int32_t>{4, 1, 3, 2, 0});
+}
+
+TEST_CASE("DEM_SIMD leaves one set of instructions, if the processor has it") {
+  using dem::InstructionSet;
+  const char* const before = std::getenv("DEM_SIMD");
+  const std::string kept = before ? before : "";
+  unsetenv("DEM_SIMD");
+  const std::vector<InstructionSet> all = dem::instruction_sets();
+  CHECK(all.front() == InstructionSet::sse2);
+  CHECK(std::is_sorted(all.begin(), all.end()));
+  CHECK(dem::widest_set() == all.back());
+  for (const InstructionSet set : {InstructionSet::sse2, InstructionSet::avx2, InstructionSet::avx512}) {
+    const std::string name(dem::name_of(set));
+    CHECK(dem::set_of(name) == set);
+    setenv("DEM_SIMD", name.c_str(), 1);
+    if (dem::processor_has(set)) {
+      CHECK(dem::instruction_sets() == std::vector{set});
+    } else {
+      CHECK_THROWS_AS((void)dem::instruction_sets(), dem::InputError);
+    }
+  }
+  setenv("DEM_SIMD", "mmx", 1);
+  CHECK_THROWS_AS((void)dem::instruction_sets(), dem::InputError);
+  unsetenv("DEM_SIMD");
+  if (before) setenv("DEM_SIMD", kept.c_str(), 1);
+}
+
+TEST_CASE("the set with which work takes least time is found") {
+  for (const dem::InstructionSet fast : dem::instruction_sets()) {
+    double sum = 0;
+    int calls = 0;
+    const auto work = [&](dem::InstructionSet set) {
+      ++calls;
+      for (int i = 1; i < (set == fast ? 5000 : 50000); ++i) sum += 1.0 / i;
+    };
+    CHECK(dem::fastest_set(work) == fast);
+    CHECK(sum >= 0);
+    if (dem::instruction_sets().size() == 1) CHECK(calls == 0);
+  }
 }
