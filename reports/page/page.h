@@ -17,7 +17,4 @@ enum class Images { embedded, linked };
 std::string page(const StudyResult& study, const Comparisons& comparisons, const std::vector<DrawnFigure>& figures,
                  const ReportOptions& options, Images images = Images::embedded);
 
-/// RFC 4648.
-std::string base64(std::string_view bytes);
-
 }  // namespace reports

@@ -100,8 +100,8 @@ TEST_CASE("every figure is drawn and every file named in the summary is there") 
 
 TEST_CASE("summary.json is as its schema says") {
   const auto check = [](const std::filesystem::path& summary) {
-    return run("/usr/bin/python3 -m jsonschema -i '" + summary.string() + "' '" + (assets / "summary.schema.json").string() +
-               "'");
+    return run("/usr/bin/python3 -m jsonschema -i '" + summary.string() + "' '" +
+               (assets / "summary.schema.json").string() + "'");
   };
   const Ran good = check(whole().folder / "summary.json");
   CAPTURE(good.output);

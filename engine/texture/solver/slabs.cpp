@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "engine/core/space_filling.h"
 #include "engine/texture/solver/packs.h"
 
 namespace dem::texture {
@@ -36,41 +37,23 @@ int slab_at(const SlabRule& rule, double z) {
   return std::clamp(static_cast<int>((z - rule.low) / rule.thickness), 0, rule.count - 1);
 }
 
-std::uint64_t spread(std::uint32_t x) {
-  std::uint64_t v = x & 0x1fffff;
-  v = (v | v << 32) & 0x1f00000000ffffULL;
-  v = (v | v << 16) & 0x1f0000ff0000ffULL;
-  v = (v | v << 8) & 0x100f00f00f00f00fULL;
-  v = (v | v << 4) & 0x10c30c30c30c30c3ULL;
-  return (v | v << 2) & 0x1249249249249249ULL;
-}
-
 }  // namespace
 
 std::vector<std::int32_t> order_in_slabs(const std::vector<Vec3>& position, const std::vector<double>& radius) {
   const SlabRule rule = slab_rule(position, radius, 0);
-  std::vector<std::int32_t> order(position.size());
-  std::vector<std::uint64_t> key(position.size());
   double largest = 0, x0 = huge, y0 = huge;
   for (std::size_t i = 0; i < position.size(); ++i) {
-    order[i] = static_cast<std::int32_t>(i);
     largest = std::max(largest, radius[i]);
     x0 = std::min(x0, position[i][0]);
     y0 = std::min(y0, position[i][1]);
   }
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    const int slab = slab_at(rule, position[i][2]);
-    const auto cell = [&](double a, double from) { return static_cast<std::uint32_t>((a - from) / largest); };
+  const auto cell = [&](double a, double from) { return static_cast<std::uint32_t>((a - from) / largest); };
+  return slab_order<std::int32_t>(position.size(), [&](std::size_t i) -> SlabCell {
+    const auto& [x, y, z] = position[i];
+    const int slab = slab_at(rule, z);
     const double z0 = rule.low + slab * rule.thickness;
-    const std::uint64_t curve = spread(cell(position[i][0], x0)) | spread(cell(position[i][1], y0)) << 1 |
-                                spread(cell(std::max(position[i][2], z0), z0)) << 2;
-    key[i] = static_cast<std::uint64_t>(slab) << 48 | (curve & 0xffffffffffffULL);
-  }
-  std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-    const auto ia = static_cast<std::size_t>(a), ib = static_cast<std::size_t>(b);
-    return key[ia] != key[ib] ? key[ia] < key[ib] : a < b;
+    return {static_cast<std::uint32_t>(slab), cell(x, x0), cell(y, y0), cell(std::max(z, z0), z0)};
   });
-  return order;
 }
 
 Slabs cut_in_slabs(const std::vector<Vec3>& position, const std::vector<double>& radius, int wanted) {
