@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "engine/model/model.h"
-#include "engine/texture/setup.h"
+#include "engine/texture/loading/setup.h"
 
 namespace dem::texture {
 

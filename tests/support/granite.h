@@ -5,7 +5,7 @@
 
 #include "engine/core/random.h"
 #include "engine/texture/loading/compression.h"
-#include "engine/texture/setup.h"
+#include "engine/texture/loading/setup.h"
 #include "engine/texture/solver/slabs.h"
 
 namespace dem_test {

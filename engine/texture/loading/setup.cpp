@@ -1,4 +1,4 @@
-#include "engine/texture/setup.h"
+#include "engine/texture/loading/setup.h"
 
 #include <algorithm>
 
