@@ -4,8 +4,9 @@
 # What a bare Debian 12 needs to build and to run, and what the tests need besides.
 packages="g++ cmake ninja-build pkg-config libvtk9-dev libopenmpi-dev libosmesa6-dev libglew-dev libpng-dev libhdf5-dev
 libtomlplusplus-dev libcxxopts-dev libfmt-dev nlohmann-json3-dev libkainjow-mustache-dev
+libboost-dev libeigen3-dev libssl-dev librandom123-dev
 weasyprint fonts-dejavu-core"
-test_packages="doctest-dev libeigen3-dev tidy poppler-utils clang-format"
+test_packages="doctest-dev tidy poppler-utils clang-format python3-jsonschema"
 build="$root/build"
 jobs=$(nproc 2>/dev/null || echo 2)
 

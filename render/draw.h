@@ -12,10 +12,6 @@
 
 namespace render {
 
-/// Stable facts written into PNG text chunks and SVG metadata: {"Scenario", hash}, {"Figure", id}, {"Engine", version}.
-/// SVG also takes {"Title", ...} and {"Description", ...} for its <title> and <desc>.
-using Provenance = std::vector<std::pair<std::string, std::string>>;
-
 class Canvas {
  public:
   Canvas();  ///< throws dem::EnvironmentError when no off-screen GL context can be made
@@ -36,14 +32,5 @@ class Canvas {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// Comparison of two PNG files: 0 same, 1 black against white or not of one size. Throws dem::EnvironmentError when
-/// unreadable.
-struct ImageDifference {
-  double mean = 0;   ///< mean absolute difference of channels
-  double worst = 0;  ///< of a channel, mean over 8 x 8 pixels: a shifted line shows, a smoothed edge does not
-  bool same_size = true;
-};
-ImageDifference compare_png(const std::filesystem::path& a, const std::filesystem::path& b);
 
 }  // namespace render

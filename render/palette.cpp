@@ -1,6 +1,6 @@
 #include <array>
 
-#include "render/chart/chart.h"
+#include "render/style.h"
 
 namespace render {
 

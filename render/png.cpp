@@ -1,3 +1,4 @@
+#include "render/compare.h"
 #include "render/png.h"
 
 #include <png.h>

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "render/draw.h"
 #include "render/image.h"
+#include "render/style.h"
 
 namespace render {
 

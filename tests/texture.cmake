@@ -1,4 +1,5 @@
 dem_test(test_texture_laws SOURCES physics/test_texture_laws.cpp LIBRARIES dem_texture)
 dem_test(test_texture_assembly SOURCES physics/test_texture_assembly.cpp LIBRARIES dem_texture)
 dem_test(test_texture_confined SOURCES physics/test_texture_confined.cpp LIBRARIES dem_texture)
+dem_test(test_texture_loading SOURCES physics/test_texture_loading.cpp LIBRARIES dem_texture)
 dem_test(test_texture_rate SOURCES physics/test_texture_rate.cpp LIBRARIES dem_texture LABELS long)

@@ -1,20 +1,16 @@
 #include "engine/core/random.h"
 
+#include <Random123/philox.h>
+
+#include <bit>
 #include <cmath>
 #include <numbers>
 
 namespace dem {
 
-std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> c, std::array<std::uint32_t, 2> k) {
-  for (int round = 0; round < 10; ++round) {
-    const std::uint64_t a = 0xD2511F53ULL * c[0];
-    const std::uint64_t b = 0xCD9E8D57ULL * c[2];
-    c = {static_cast<std::uint32_t>(b >> 32) ^ c[1] ^ k[0], static_cast<std::uint32_t>(b),
-         static_cast<std::uint32_t>(a >> 32) ^ c[3] ^ k[1], static_cast<std::uint32_t>(a)};
-    k[0] += 0x9E3779B9U;
-    k[1] += 0xBB67AE85U;
-  }
-  return c;
+std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key) {
+  return std::bit_cast<std::array<std::uint32_t, 4>>(
+      philox4x32_R(10, std::bit_cast<philox4x32_ctr_t>(counter), std::bit_cast<philox4x32_key_t>(key)));
 }
 
 RandomStream::RandomStream(std::uint64_t seed, Purpose purpose, std::uint32_t substream)

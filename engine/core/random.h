@@ -1,5 +1,6 @@
 #pragma once
-// Counter-based random numbers: Philox 4x32-10 (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3").
+// Counter-based random numbers: Philox 4x32-10 (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3"), by the
+// authors' own Random123.
 // A number depends on (seed, purpose, substream, index) only, never on how many were drawn elsewhere.
 #include <array>
 #include <cstdint>

@@ -410,7 +410,7 @@ void advance(const Constants& c, const Row& row, bool sample) {
 }  // namespace
 
 const Kernel& DEM_KERNEL() {
-  static constexpr Kernel kernel{DEM_KERNEL_NAME, DEM_LANES, forces, advance};
+  static constexpr Kernel kernel{DEM_LANES, forces, advance};
   return kernel;
 }
 

@@ -75,7 +75,6 @@ struct Events {
 };
 
 struct Kernel {
-  const char* name;
   int lanes;
   /// Forces of the row's own bonds at the present displacements; breaks bonds; leaves row.sum and row.force.
   void (*forces)(const Constants&, const Row&, bool sample, Events&);

@@ -132,6 +132,7 @@ Record run(const CaseSpec& spec, RunContext& context) {
   // Two threads meet twice a step: below about a thousand elements one is faster.
   const Block block = make_block(settings.shape, settings.micro.diameter);
   settings.setup.threads = block.site.size() < 1000 ? 1 : context.threads;
+  settings.setup.set = fastest_set(block, settings.setup);
   Record record = new_record(model(), spec);
   add_micro(record, settings.micro);
   if (settings.test == "elastic") {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 
+#include "engine/core/cell_grid.h"
 #include "engine/core/errors.h"
 #include "engine/lattice/grid.h"
 #include "engine/lattice/team.h"
@@ -17,15 +18,16 @@ namespace {
 
 using Elements = std::vector<std::int32_t>;
 
-const Kernel& choose_kernel(std::string_view wanted) {
-  const auto can = kernels();
-  const std::string_view name = wanted.empty() ? can.back() : wanted;
-  if (std::find(can.begin(), can.end(), name) == can.end()) {
-    throw InputError(fmt::format("the kernel '{}' is not there for this processor", name),
-                     fmt::format("it has {}", fmt::join(can, ", ")));
+const Kernel& kernel_of(InstructionSet set) {
+  if (!processor_has(set)) throw InputError(fmt::format("this processor does not have {}", name_of(set)));
+  switch (set) {
+    case InstructionSet::avx512:
+      return kernel_avx512();
+    case InstructionSet::avx2:
+      return kernel_avx2();
+    case InstructionSet::sse2:
+      break;
   }
-  if (name == "avx512") return kernel_avx512();
-  if (name == "avx2") return kernel_avx2();
   return kernel_sse2();
 }
 
@@ -98,15 +100,6 @@ const Setup& checked(const Setup& s) {
 
 }  // namespace
 
-std::vector<std::string_view> kernels() {
-  std::vector<std::string_view> can{"sse2"};
-  if (__builtin_cpu_supports("avx2")) can.push_back("avx2");
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) {
-    can.push_back("avx512");
-  }
-  return can;
-}
-
 struct Solver::Impl {
   Block block;
   Setup setup;
@@ -125,7 +118,7 @@ struct Solver::Impl {
   Impl(const Block& b, const Setup& s)
       : block(b),
         setup(s),
-        kernel(choose_kernel(s.kernel)),
+        kernel(kernel_of(s.set ? *s.set : widest_set())),
         grid(b, kernel.lanes, threads_lent(s.threads), s.gravity != 0),
         constants(constants_of(s, grid)) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -375,6 +368,18 @@ struct Solver::Impl {
   }
 };
 
+InstructionSet fastest_set(const Block& block, Setup setup) {
+  setup.threads = 1;
+  const int steps = std::clamp(static_cast<int>(5e3 / static_cast<double>(block.bonds.size())), 1, 50);
+  std::map<InstructionSet, Solver> solvers;  // each made in its first turn, which is never its shortest
+  return dem::fastest_set([&](InstructionSet set) {
+    setup.set = set;
+    const auto [solver, fresh] = solvers.try_emplace(set, block, setup);
+    const double nudge = fresh ? 1e-9 * setup.micro.diameter : 0;  // of the planes, so that something moves
+    solver->second.run(steps, nudge, -nudge);
+  });
+}
+
 Solver::Solver(const Block& block, const Setup& setup) { impl_ = std::make_unique<Impl>(block, checked(setup)); }
 Solver::~Solver() = default;
 Solver::Solver(Solver&&) noexcept = default;
@@ -386,7 +391,6 @@ Sample Solver::sampled_step(double low, double high) { return impl_->sample(low,
 const std::vector<Crack>& Solver::cracks() const { return impl_->cracks; }
 std::int64_t Solver::step() const { return impl_->step; }
 double Solver::strain() const { return impl_->face_strain(impl_->setup.axis); }
-std::string_view Solver::kernel() const { return impl_->kernel.name; }
 std::size_t Solver::bytes() const { return impl_->grid.bytes(); }
 
 std::vector<std::array<double, 3>> Solver::displacement() const {
@@ -430,14 +434,8 @@ std::array<double, 3> Solver::momentum() const {
 std::int64_t Solver::unseen_contacts() const {
   const double d = impl_->setup.micro.diameter;
   std::vector<std::array<double, 3>> x = displacement();
-  std::map<std::array<std::int64_t, 3>, Elements> cells;
   for (std::size_t e = 0; e < x.size(); ++e) {
-    std::array<std::int64_t, 3> cell{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      x[e][i] += impl_->block.position[e][i];
-      cell[i] = static_cast<std::int64_t>(std::floor(x[e][i] / d));
-    }
-    cells[cell].push_back(static_cast<std::int32_t>(e));
+    for (std::size_t i = 0; i < 3; ++i) x[e][i] += impl_->block.position[e][i];
   }
   const auto near = [&](std::int32_t a, std::int32_t b) {
     double r2 = 0;
@@ -451,16 +449,11 @@ std::int64_t Solver::unseen_contacts() const {
   for (const Block::Bond& b : impl_->block.bonds) bonded.emplace_back(std::min(b.a, b.b), std::max(b.a, b.b));
   std::sort(bonded.begin(), bonded.end());
   std::int64_t count = 0;
-  for (const auto& [cell, members] : cells) {
-    for (std::int64_t i = 0; i < 27; ++i) {
-      const auto other = cells.find({cell[0] + i % 3 - 1, cell[1] + i / 3 % 3 - 1, cell[2] + i / 9 - 1});
-      if (other == cells.end()) continue;
-      for (const std::int32_t a : members) {
-        for (const std::int32_t b : other->second) {
-          if (a < b && near(a, b) && !std::binary_search(bonded.begin(), bonded.end(), std::pair{a, b})) ++count;
-        }
-      }
-    }
+  const CellGrid grid(x.size(), d, [&](std::size_t e) { return x[e]; });
+  for (std::size_t e = 0; e < x.size(); ++e) {
+    grid.around(x[e], [&, a = static_cast<std::int32_t>(e)](std::int32_t b) {
+      if (a < b && near(a, b) && !std::binary_search(bonded.begin(), bonded.end(), std::pair{a, b})) ++count;
+    });
   }
   return count;
 }

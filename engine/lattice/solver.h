@@ -9,9 +9,10 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <string_view>
+#include <optional>
 #include <vector>
 
+#include "engine/core/instruction_set.h"
 #include "engine/lattice/block.h"
 #include "engine/lattice/conversion.h"
 
@@ -34,7 +35,7 @@ struct Setup {
   double plane_stiffness = 1;  ///< of the springs between planes and end elements, over Kn
   bool unbreakable = false;
   int threads = 1;
-  std::string_view kernel;  ///< "sse2", "avx2", "avx512"; empty: the widest that the processor has
+  std::optional<InstructionSet> set;  ///< of the kernels; nothing: the widest
 };
 
 /// The state at one time, with the ledger up to it. Energies in J.
@@ -111,7 +112,6 @@ class Solver {
   [[nodiscard]] State state() const;
   void restore(const State& state);
 
-  [[nodiscard]] std::string_view kernel() const;
   [[nodiscard]] std::size_t bytes() const;  ///< of the arrays that a step touches
 
  private:
@@ -119,7 +119,8 @@ class Solver {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Names of the kernels that this processor can run, narrowest first.
-std::vector<std::string_view> kernels();
+/// The set that moves this block fastest, from some tens of steps of copies of it: vectors hang over the ends of short
+/// rows, wider ones the more. Results do not depend on it.
+InstructionSet fastest_set(const Block& block, Setup setup);
 
 }  // namespace dem::lattice

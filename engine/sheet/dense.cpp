@@ -5,8 +5,11 @@
 #include <cstring>
 #include <vector>
 
-// One clone per vector width; element-wise operations and a fixed order of sums make them agree to the last bit.
-#define DEM_CLONES __attribute__((target_clones("avx2", "default")))
+#include "engine/core/instruction_set.h"
+
+// Bodies of kernels, each built for several sets of instructions (Built): element-wise operations and a fixed order of sums
+// make them agree to the last bit.
+#define DEM_BODY inline __attribute__((always_inline))
 
 namespace dem::sheet {
 namespace {
@@ -23,17 +26,17 @@ constexpr int shared_rows = 192;  // left in a front that several threads work o
 constexpr int ahead = 64;         // lines that a sweep asks for ahead
 constexpr float steps = 32700;    // of sixteen bits, a little less than they hold: rounding is carried on
 
-inline __attribute__((always_inline)) V4 load(const double* p) {
+DEM_BODY V4 load(const double* p) {
   V4 v;
   std::memcpy(&v, p, sizeof v);
   return v;
 }
-inline __attribute__((always_inline)) V4 load(const float* p) {
+DEM_BODY V4 load(const float* p) {
   F4 v;
   std::memcpy(&v, p, sizeof v);
   return __builtin_convertvector(v, V4);
 }
-inline __attribute__((always_inline)) F8 load8(const float* p) {
+DEM_BODY F8 load8(const float* p) {
   F8 v;
   std::memcpy(&v, p, sizeof v);
   return v;
@@ -42,15 +45,15 @@ inline __attribute__((always_inline)) F8 load8(const float* p) {
 struct Two {
   F8 first, second;
 };
-inline __attribute__((always_inline)) Two load_two(const unsigned char* p) {
+DEM_BODY Two load_two(const unsigned char* p) {
   I8 v;
   std::memcpy(&v, p, sizeof v);
   return {__builtin_convertvector(v << 16, F8), __builtin_convertvector(v & -65536, F8)};
 }
-inline __attribute__((always_inline)) void store(float* p, const F8& v) { std::memcpy(p, &v, sizeof v); }
-inline __attribute__((always_inline)) double sum(const V4& v) { return (v[0] + v[2]) + (v[1] + v[3]); }
+DEM_BODY void store(float* p, const F8& v) { std::memcpy(p, &v, sizeof v); }
+DEM_BODY double sum(const V4& v) { return (v[0] + v[2]) + (v[1] + v[3]); }
 // {sum of a[0], sum of a[1], ...}
-inline __attribute__((always_inline)) F8 sums(const F8 (&a)[8]) {
+DEM_BODY F8 sums(const F8 (&a)[8]) {
   F8 pairs[4], fours[2];
   for (int q = 0; q < 4; ++q) {
     const F8 &x = a[2 * q], &y = a[2 * q + 1];
@@ -71,13 +74,13 @@ inline __attribute__((always_inline)) F8 sums(const F8 (&a)[8]) {
 constexpr int head_lines = 3;
 constexpr int head_floats = 48;
 constexpr int column_of_triangle(int q) { return 8 + q * (17 - q) / 2 - q; }  // where its row 0 would be
-inline __attribute__((always_inline)) F8 triangle_column(const unsigned char* head, int q) {
+DEM_BODY F8 triangle_column(const unsigned char* head, int q) {
   constexpr I8 rows{0, 1, 2, 3, 4, 5, 6, 7};
   F8 v;  // what lies before the diagonal belongs to other columns (or to the scales)
   std::memcpy(&v, head + 4 * column_of_triangle(q), sizeof v);
   return rows < q ? F8{} : v;
 }
-inline __attribute__((always_inline)) F8 scales_of(const unsigned char* head) {
+DEM_BODY F8 scales_of(const unsigned char* head) {
   F8 v;
   std::memcpy(&v, head, sizeof v);
   return v;
@@ -104,8 +107,8 @@ struct Front {
 };
 
 // The w x w triangle at column k, into `d` (column by column, leading dimension `block`) and back.
-DEM_CLONES int factor_triangle(const Front& front, int k, int w, const float* diagonal, float floor_of, float raised_to,
-                               float* d) {
+DEM_BODY int factor_triangle(const Front& front, int k, int w, const float* diagonal, float floor_of, float raised_to,
+                             float* d) {
   for (int j = 0; j < w; ++j) {
     const float* in = front.column(k + j) + k;
     for (int i = j; i < w; ++i) d[j * block + i] = in[i];
@@ -137,7 +140,7 @@ DEM_CLONES int factor_triangle(const Front& front, int k, int w, const float* di
 }
 
 // x (w columns of a stripe of rows, packed) = x L^-T with the triangle L in `d`.
-DEM_CLONES void solve_stripe(float* x, int w, const float* d) {
+DEM_BODY void solve_stripe(float* x, int w, const float* d) {
   int j = 0;
   for (; j + 4 <= w; j += 4) {
     F8 c[4][2];
@@ -178,8 +181,7 @@ DEM_CLONES void solve_stripe(float* x, int w, const float* d) {
 // Columns first + [from, to) and the rows below their diagonal -= P P^T, P packed in stripes of rows, stripe by stripe,
 // `at_once` columns at a time. `from` is a multiple of that.
 template <class V, int at_once>
-inline __attribute__((always_inline)) void subtract_products(const Front& front, int first, int w, const float* packed,
-                                                             int from, int to) {
+DEM_BODY void subtract_products(const Front& front, int first, int w, const float* packed, int from, int to) {
   constexpr int lanes = static_cast<int>(sizeof(V) / sizeof(float)), vectors = stripe / lanes;
   const int m = front.panel.nf - first;
   for (int j0 = from; j0 < to; j0 += at_once) {
@@ -216,24 +218,10 @@ inline __attribute__((always_inline)) void subtract_products(const Front& front,
     }
   }
 }
-// The widest has twice the registers: it takes more columns at a time.
-constexpr int most_at_once = 8;
-__attribute__((target("default"))) void update_trailing(const Front& front, int first, int w, const float* packed,
-                                                        int from, int to) {
-  subtract_products<F8, 4>(front, first, w, packed, from, to);
-}
-__attribute__((target("avx2"))) void update_trailing(const Front& front, int first, int w, const float* packed,
-                                                     int from, int to) {
-  subtract_products<F8, 4>(front, first, w, packed, from, to);
-}
-__attribute__((target("avx512f"))) void update_trailing(const Front& front, int first, int w, const float* packed,
-                                                        int from, int to) {
-  subtract_products<F16, most_at_once>(front, first, w, packed, from, to);
-}
 
 // `columns` holds eight columns of 8 * squares rows each. Vectors hold {column q row 2 k, column q row 2 k + 1, ...} of
 // four columns: the x and y of a particle are rounded apart.
-DEM_CLONES void quantise(const float* columns, int squares, float* scale, ThinPanel::Line* out) {
+DEM_BODY void quantise(const float* columns, int squares, float* scale, ThinPanel::Line* out) {
   const int rows = 8 * squares;
   for (int half = 0; half < 2; ++half) {
     const float* c[4];
@@ -270,7 +258,7 @@ DEM_CLONES void quantise(const float* columns, int squares, float* scale, ThinPa
   }
 }
 
-DEM_CLONES void forward(const ThinPanel& panel, float* t) {
+DEM_BODY void forward(const ThinPanel& panel, float* t) {
   const ThinPanel::Line* at = panel.data + ThinPanel::lines(panel.ns, panel.nf);
   for (int b = 0, j = 0; b < panel.blocks(); ++b, j += 8) {
     const int squares = panel.squares(b);
@@ -298,7 +286,7 @@ DEM_CLONES void forward(const ThinPanel& panel, float* t) {
   }
 }
 
-DEM_CLONES void backward(const ThinPanel& panel, float* t) {
+DEM_BODY void backward(const ThinPanel& panel, float* t) {
   const ThinPanel::Line* at = panel.data;
   for (int b = panel.blocks() - 1, j = 8 * b; b >= 0; --b, j -= 8) {
     const int squares = panel.squares(b);
@@ -324,7 +312,7 @@ DEM_CLONES void backward(const ThinPanel& panel, float* t) {
 }
 
 template <class Float>
-inline __attribute__((always_inline)) double products(const Float* a, const Float* b, std::size_t n) {
+DEM_BODY double products(const Float* a, const Float* b, std::size_t n) {
   V4 s0{}, s1{};
   std::size_t i = 0;
   for (; i + 8 <= n; i += 8) {
@@ -335,13 +323,47 @@ inline __attribute__((always_inline)) double products(const Float* a, const Floa
   for (; i < n; ++i) r += static_cast<double>(a[i]) * static_cast<double>(b[i]);
   return r;
 }
-DEM_CLONES double dot_of(const double* a, const double* b, std::size_t n) { return products(a, b, n); }
-DEM_CLONES double dot_of(const float* a, const float* b, std::size_t n) { return products(a, b, n); }
+
+constexpr int usual_at_once = 4;
+constexpr int most_at_once = 8;  // AVX-512 has twice the registers
+
+struct Kernels {
+  decltype(&factor_triangle) triangle;
+  decltype(&solve_stripe) stripe;
+  decltype(&subtract_products<F8, usual_at_once>) update;
+  decltype(&quantise) sixteen_bits;
+  decltype(&forward) sweep_forward;
+  decltype(&backward) sweep_backward;
+  decltype(&products<double>) dot;
+  decltype(&products<float>) dot_float;
+};
+constexpr Kernels with_sse2{
+    Built<factor_triangle>::sse2,  Built<solve_stripe>::sse2,   Built<subtract_products<F8, usual_at_once>>::sse2,
+    Built<quantise>::sse2,         Built<forward>::sse2,        Built<backward>::sse2,
+    Built<products<double>>::sse2, Built<products<float>>::sse2};
+constexpr Kernels with_avx2{
+    Built<factor_triangle>::avx2,  Built<solve_stripe>::avx2,   Built<subtract_products<F8, usual_at_once>>::avx2,
+    Built<quantise>::avx2,         Built<forward>::avx2,        Built<backward>::avx2,
+    Built<products<double>>::avx2, Built<products<float>>::avx2};
+// Sweeps wait for memory and triangles are small: only the products gain from AVX-512.
+constexpr Kernels with_avx512 = [] {
+  Kernels k = with_avx2;
+  k.update = Built<subtract_products<F16, most_at_once>>::avx512;
+  return k;
+}();
+
+const Kernels& kernels() {
+  static const Kernels& chosen = widest_set() == InstructionSet::avx512 ? with_avx512
+                                 : widest_set() == InstructionSet::avx2 ? with_avx2
+                                                                        : with_sse2;
+  return chosen;
+}
 
 }  // namespace
 
 int partial_cholesky(const Panel<float>& panel, const Packed<float>& rest, std::span<const float> diagonal,
                      PivotRule rule) {
+  const Kernels& use = kernels();
   const Front front{panel, rest};
   const int ns = panel.ns, nf = panel.nf;
   int negative = 0;
@@ -349,8 +371,8 @@ int partial_cholesky(const Panel<float>& panel, const Packed<float>& rest, std::
   std::vector<float> packed;
   for (int k = 0; k < ns; k += block) {
     const int w = std::min(block, ns - k);
-    negative += factor_triangle(front, k, w, diagonal.data(), static_cast<float>(rule.floor),
-                                static_cast<float>(rule.raised), triangle);
+    negative += use.triangle(front, k, w, diagonal.data(), static_cast<float>(rule.floor),
+                             static_cast<float>(rule.raised), triangle);
     const int first = k + w;
     const int m = nf - first;
     if (m <= 0) continue;
@@ -365,7 +387,7 @@ int partial_cholesky(const Panel<float>& panel, const Packed<float>& rest, std::
         float* x = packed.data() + static_cast<std::size_t>(s) * size;
         const int row = first + stripe * s, rows = std::min(stripe, nf - row);
         for (int c = 0; c < w; ++c) std::copy_n(front.column(k + c) + row, rows, x + stripe * c);
-        solve_stripe(x, w, triangle);
+        use.stripe(x, w, triangle);
         for (int c = 0; c < w; ++c) std::copy_n(x + stripe * c, rows, front.column(k + c) + row);
       }
     };
@@ -376,7 +398,7 @@ int partial_cholesky(const Panel<float>& panel, const Packed<float>& rest, std::
       const int part = m * m / (16 * (m - from)) / most_at_once * most_at_once;
       const int to = shared ? std::min(m, from + std::max(32, part)) : m;
 #pragma omp task if (shared) default(shared) firstprivate(from, to)
-      update_trailing(front, first, w, packed.data(), from, to);
+      use.update(front, first, w, packed.data(), from, to);
       from = to;
     }
   }
@@ -393,6 +415,7 @@ std::size_t ThinPanel::lines(int ns, int nf) {
 static_assert(sizeof(float[head_floats]) == head_lines * sizeof(ThinPanel::Line));
 
 void compress(const Panel<const float>& panel, const ThinPanel& thin) {
+  const Kernels& use = kernels();
   const int ns = panel.ns;
   std::vector<ThinPanel::Line*> place(static_cast<std::size_t>(thin.blocks()));
   ThinPanel::Line* end = thin.data + ThinPanel::lines(ns, panel.nf);
@@ -420,16 +443,16 @@ void compress(const Panel<const float>& panel, const ThinPanel& thin) {
         }
       }
       ThinPanel::Line* at = place[static_cast<std::size_t>(b)];
-      quantise(columns.data(), squares, head, at + head_lines);
+      use.sixteen_bits(columns.data(), squares, head, at + head_lines);
       std::memcpy(at, head, sizeof head);
     }
   };
   in_parts(thin.blocks(), panel.nf >= shared_rows ? 6 : thin.blocks(), make);
 }
 
-void panel_forward(const ThinPanel& panel, float* t) { forward(panel, t); }
-void panel_backward(const ThinPanel& panel, float* t) { backward(panel, t); }
-double dot(const double* a, const double* b, std::size_t n) { return dot_of(a, b, n); }
-double dot(const float* a, const float* b, std::size_t n) { return dot_of(a, b, n); }
+void panel_forward(const ThinPanel& panel, float* t) { kernels().sweep_forward(panel, t); }
+void panel_backward(const ThinPanel& panel, float* t) { kernels().sweep_backward(panel, t); }
+double dot(const double* a, const double* b, std::size_t n) { return kernels().dot(a, b, n); }
+double dot(const float* a, const float* b, std::size_t n) { return kernels().dot_float(a, b, n); }
 
 }  // namespace dem::sheet

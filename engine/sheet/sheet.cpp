@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#define DEM_CLONES __attribute__((target_clones("avx2", "default")))
+#include "engine/core/instruction_set.h"
 
 namespace dem::sheet {
 namespace {
@@ -17,7 +17,7 @@ struct SpringLine {
 };
 
 // No branch and no sum in the first loop: it is vector code. Returns the largest force.
-DEM_CLONES double spring_line(const SpringLine& s, int begin, int end, int offset) {
+inline __attribute__((always_inline)) double spring_line(const SpringLine& s, int begin, int end, int offset) {
 #pragma GCC ivdep
   for (int i = begin; i < end; ++i) {
     const double dx = s.x[i + offset] - s.x[i], dy = s.y[i + offset] - s.y[i];
@@ -38,6 +38,12 @@ DEM_CLONES double spring_line(const SpringLine& s, int begin, int end, int offse
     largest = size > largest ? size : largest;
   }
   return largest;
+}
+
+// With AVX-512 it takes as long as with AVX2: it waits for its quotients and for memory.
+decltype(&spring_line) spring_line_here() {
+  static const auto chosen = widest_set() == InstructionSet::sse2 ? Built<spring_line>::sse2 : Built<spring_line>::avx2;
+  return chosen;
 }
 
 // A row's largest values from forces that are up to date.
@@ -125,6 +131,7 @@ void compute_forces(const Sheet& s, Forces& f, int threads) {
   constexpr int band = 16;
   const int bands = (rows + band - 1) / band;
   f.rows.resize(static_cast<std::size_t>(rows));
+  const auto force_line = spring_line_here();
 #pragma omp parallel num_threads(threads)
   {
     std::vector<double> buffer(12 * static_cast<std::size_t>(columns), 0.0),
@@ -153,7 +160,7 @@ void compute_forces(const Sheet& s, Forces& f, int threads) {
                                    fx,
                                    fx + columns};
           const int row_start = r * columns;
-          const double top = spring_line(springs, line.begin - row_start, line.end - row_start, line.offset);
+          const double top = force_line(springs, line.begin - row_start, line.end - row_start, line.offset);
           most = std::max(most, top);
         }
         if (outside) continue;

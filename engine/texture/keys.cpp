@@ -1,16 +1,18 @@
-// The scenario keys of the grain texture model, and the settings made of them.
-#include <cmath>
-
+// The scenario keys of the grain texture model, and the settings made of them. Tests declare and read their own.
 #include "engine/texture/keys.h"
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "engine/texture/loading/test.h"
 #include "engine/texture/model.h"
 
 namespace dem::texture {
 namespace {
 
-std::vector<Key> declare() {
+// The rock, its specimen and the solver.
+std::vector<Key> declare_rock() {
   return {
       {.path = "rock",
        .type = KeyType::text,
@@ -243,105 +245,14 @@ std::vector<Key> declare() {
        .affects = Affects::test,
        .when = {"compression", "direct_tension"},
        .help = "of the critical step from the stiffness sums"},
-      {.path = "compression.rate",
-       .low = 1e-10,
-       .high = 1e-4,
-       .standard = "1e-7",
-       .affects = Affects::test,
-       .when = {"compression"},
-       .help = "platen strain a step"},
-      {.path = "compression.confined_rate",
-       .low = 0,
-       .high = 1e-4,
-       .standard = "0.0",
-       .affects = Affects::cases,
-       .help = "platen strain a step under confining pressure; 0: compression.rate"},
-      {.path = "compression.ramp_strain",
-       .low = 1e-9,
-       .high = 1e-2,
-       .standard = "2e-5",
-       .affects = Affects::test,
-       .when = {"compression"},
-       .help = "strain over which the platens reach their speed"},
-      {.path = "compression.stop",
-       .low = 0.05,
-       .high = 0.999,
-       .standard = "0.8",
-       .affects = Affects::test,
-       .when = {"compression"},
-       .help = "the test ends at this share of the peak, after it"},
-      {.path = "compression.strain_limit",
-       .low = 1.05,
-       .high = 20,
-       .standard = "3.0",
-       .affects = Affects::test,
-       .when = {"compression"},
-       .help = "or at this multiple of the strain of the peak"},
-      {.path = "compression.follow",
-       .low = 0,
-       .high = 20,
-       .standard = "0.0",
-       .affects = Affects::test,
-       .when = {"compression"},
-       .help = "the test goes on after its end to this multiple of the strain of the peak, for the residual strength"},
-      {.path = "compression.confining_pressure",
-       .unit = "MPa",
-       .low = 0,
-       .high = 1000,
-       .standard = "\"0 MPa\"",
-       .affects = Affects::test,
-       .when = {"compression"},
-       .help = "sigma_3 on a frictionless cylindrical wall; the test starts from this isotropic pressure"},
-      {.path = "compression.confining_step",
-       .unit = "kPa",
-       .low = 1e-3,
-       .high = 1000,
-       .standard = "\"5 kPa\"",
-       .affects = Affects::test,
-       .when = {"compression"},
-       .help = "rise of the confining pressure a step, before the test"},
-      {.path = "compression.sample_strain",
-       .low = 1e-8,
-       .high = 1e-3,
-       .standard = "1e-5",
-       .affects = Affects::test,
-       .when = {"compression"},
-       .help = "strain between samples"},
-      {.path = "direct_tension.rate",
-       .low = 1e-10,
-       .high = 1e-4,
-       .standard = "1e-8",
-       .affects = Affects::test,
-       .when = {"direct_tension"},
-       .help = "grip strain a step"},
-      {.path = "direct_tension.ramp_strain",
-       .low = 1e-9,
-       .high = 1e-2,
-       .standard = "2e-6",
-       .affects = Affects::test,
-       .when = {"direct_tension"},
-       .help = "strain over which the grips reach their speed"},
-      {.path = "direct_tension.stop",
-       .low = 0.05,
-       .high = 0.999,
-       .standard = "0.5",
-       .affects = Affects::test,
-       .when = {"direct_tension"},
-       .help = "the test ends at this share of the peak, after it"},
-      {.path = "direct_tension.sample_strain",
-       .low = 1e-8,
-       .high = 1e-3,
-       .standard = "1e-6",
-       .affects = Affects::test,
-       .when = {"direct_tension"},
-       .help = "strain between samples"},
-      {.path = "direct_tension.grip",
-       .low = 0.01,
-       .high = 0.3,
-       .standard = "0.05",
-       .affects = Affects::test,
-       .when = {"direct_tension"},
-       .help = "thickness of each gripped disc over the height"},
+  };
+}
+
+// What is read off, and which tests are run on which specimens.
+std::vector<Key> declare_study() {
+  std::vector<std::string> names;
+  for (const TestEntry& test : tests()) names.emplace_back(test.name);
+  return {
       {.path = "measure.gauge",
        .low = 0.1,
        .high = 1,
@@ -358,7 +269,7 @@ std::vector<Key> declare() {
        .help = "share by which the axial stiffness leaves its plateau at crack initiation"},
       {.path = "tests",
        .type = KeyType::texts,
-       .choices = {"compression", "direct_tension", "genesis"},
+       .choices = names,
        .affects = Affects::cases,
        .help = "tests to run on each specimen; genesis makes it and does not load it"},
       {.path = "repeats",
@@ -420,13 +331,18 @@ std::vector<Key> declare() {
 }  // namespace
 
 std::span<const Key> keys() {
-  static const std::vector<Key> declared = declare();
+  static const std::vector<Key> declared = [] {
+    std::vector<Key> all = declare_rock();
+    const auto append = [&](const std::vector<Key>& more) { all.insert(all.end(), more.begin(), more.end()); };
+    for (const TestEntry& test : tests()) append(test.keys());
+    append(declare_study());
+    return all;
+  }();
   return declared;
 }
 
-Settings read_settings(const Scenario& s, TestKind test) {
+Settings read_settings(const Scenario& s, std::string_view test) {
   Settings r;
-  r.test = test;
   r.packing.vessel = {s.real("specimen.diameter"), s.real("specimen.height")};
   r.packing.radius_min = s.real("packing.minimum_radius");
   r.packing.radius_ratio = s.real("packing.radius_ratio");
@@ -495,21 +411,7 @@ Settings read_settings(const Scenario& s, TestKind test) {
   r.same_mineral_boundaries = s.boolean("texture.same_mineral_boundaries") && !r.one_mineral;
   r.damping = s.real("solver.damping");
   r.time_step_factor = s.real("solver.time_step_factor");
-  const bool compression = test == TestKind::compression;
-  const std::string group = test == TestKind::direct_tension ? "direct_tension." : "compression.";
-  r.rate = s.real(group + "rate");
-  r.ramp_strain = s.real(group + "ramp_strain");
-  r.stop = s.real(group + "stop");
-  r.sample_strain = s.real(group + "sample_strain");
-  r.strain_limit = s.real("compression.strain_limit");
-  r.follow = s.real("compression.follow");
-  r.confining_pressure = compression ? s.real("compression.confining_pressure") : 0;
-  r.confining_step = s.real("compression.confining_step");
-  r.grip = s.real("direct_tension.grip");
-  if (r.sample_strain < r.rate) {
-    throw s.error(group + "sample_strain", "samples are closer than steps",
-                  "write at least the value of " + group + "rate");
-  }
+  r.test = test_entry(test).read(s);
   r.gauge = s.real("measure.gauge");
   r.stiffness_departure = s.real("measure.stiffness_departure");
   return r;

@@ -10,6 +10,7 @@
 #include "engine/texture/genesis/packing.h"
 #include "engine/texture/keys.h"
 #include "engine/texture/loading/loading.h"
+#include "engine/texture/loading/test.h"
 #include "engine/texture/quantities.h"
 #include "engine/texture/results.h"
 
@@ -41,9 +42,7 @@ CaseSpec case_of(const Scenario& base, const std::string& test, const Variant& v
                           .with("texture.only_mineral", v.only_mineral)
                           .with("compression.confining_pressure", v.confining_pressure)
                           .with("seed", v.seed);
-  if (const double rate = base.real("compression.confined_rate"); v.confining_pressure > 0 && rate > 0) {
-    scenario = scenario.with("compression.rate", rate);
-  }
+  if (const auto resolve = test_entry(test).resolve) scenario = resolve(scenario);
   std::string id = test + "_" + (v.only_mineral.empty() ? "ar_" + id_part(v.aspect_ratio) : id_part(v.only_mineral));
   if (!base.reals("sweep.dip").empty() || v.dip != 0) id += "_dip_" + id_part(dip);
   if (pressure > 0) id += "_sigma3_" + id_part(pressure);
@@ -62,12 +61,6 @@ CaseSpec case_of(const Scenario& base, const std::string& test, const Variant& v
                            of(parameter::confining_pressure, pressure),
                            of(parameter::seed, static_cast<double>(v.seed))};
   return make_case(model(), std::move(id), std::move(scenario), std::move(parameters), {test});
-}
-
-TestKind kind_of(const std::string& test) {
-  return test == "compression" ? TestKind::compression
-         : test == "genesis"   ? TestKind::genesis
-                               : TestKind::direct_tension;
 }
 
 std::vector<double> swept(const Scenario& s, const std::string& sweep, const std::string& single) {
@@ -129,13 +122,14 @@ std::vector<CaseSpec> cases(const Scenario& scenario) {
     if (std::count(tests.begin(), tests.end(), test) > 1) {
       throw scenario.error("tests", "'" + test + "' is named twice", "name each test once");
     }
+    const bool confined = test_entry(test).confined;
     for (const Variant& v : variants) {
       Variant tested = v;
-      if (test != "compression") tested.confining_pressure = 0;  // others have none
+      if (!confined) tested.confining_pressure = 0;
       CaseSpec made = case_of(scenario, test, tested);
-      if (test != "compression" && std::ranges::find(list, made.id, &CaseSpec::id) != list.end()) continue;
-      const Settings settings = read_settings(made.scenario, kind_of(test));
-      if (kind_of(test) != TestKind::genesis) made.threads = threads_of(expected_spheres(settings.packing));
+      if (!confined && std::ranges::find(list, made.id, &CaseSpec::id) != list.end()) continue;
+      const Settings settings = read_settings(made.scenario, test);
+      if (settings.test.loads()) made.threads = threads_of(expected_spheres(settings.packing));
       list.push_back(std::move(made));
     }
   }
@@ -143,40 +137,38 @@ std::vector<CaseSpec> cases(const Scenario& scenario) {
 }
 
 // Runs the test to its end, from its checkpoint if there is one.
-LoadingTest load(const Specimen& specimen, const Settings& settings, const CaseSpec& spec, RunContext& context) {
+Loading load(const Specimen& specimen, const Settings& settings, const CaseSpec& spec, RunContext& context) {
   // Two threads pay from some thousand particles on: below, they mostly wait for each other.
   const auto threads = [useful = static_cast<int>(specimen.packing.radius.size() / 2000), &context] {
     return std::clamp(useful, 1, std::max(1, context.threads_now()));
   };
-  LoadingTest test(specimen, settings, threads());
+  Loading loading(specimen, settings, threads());
   Keeper keeper(spec, context);
-  if (LoadingTest kept = test; keeper.resume(kept)) test = std::move(kept);
-  const bool compression = settings.test == TestKind::compression;
-  while (!test.ended()) {
-    keeper.look([&]() -> const LoadingTest& { return test; });
-    test.set_threads(threads());
-    test.advance();
-    if (test.history().empty()) {
-      context.report(
-          {"confining pressure", test.assembly().step(), 0, 0, spec.scenario.real("compression.confining_pressure")});
+  if (Loading kept = loading; keeper.resume(kept)) loading = std::move(kept);
+  const Test& test = settings.test;
+  while (!loading.ended()) {
+    keeper.look([&]() -> const Loading& { return loading; });
+    loading.set_threads(threads());
+    loading.advance();
+    if (loading.history().empty()) {
+      context.report({std::string(test.before->words), loading.assembly().step(), 0, 0, test.confining_pressure});
       continue;
     }
-    const HistoryRow& row = test.history().back();
-    context.report({compression ? "compression" : "direct tension", static_cast<std::int64_t>(row.step),
-                    test.fraction(), row.platen_strain, row.axial_stress});
+    const HistoryRow& row = loading.history().back();
+    context.report({std::string(test.words), static_cast<std::int64_t>(row.step), loading.fraction(), row.platen_strain,
+                    row.axial_stress});
   }
-  return test;
+  return loading;
 }
 
 Record run(const CaseSpec& spec, RunContext& context) {
-  const TestKind kind = kind_of(spec.test());
-  const Settings settings = read_settings(spec.scenario, kind);
+  const Settings settings = read_settings(spec.scenario, spec.test());
   const Specimen specimen = make_specimen(settings, context);
   Record record = new_record(model(), spec);
-  if (kind == TestKind::genesis) {
-    add_specimen(record, specimen, settings);
-  } else {
+  if (settings.test.loads()) {
     add_test(record, specimen, settings, load(specimen, settings, spec, context));
+  } else {
+    add_specimen(record, specimen, settings);
   }
   return record;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "engine/texture/loading/characteristics.h"
 #include "engine/texture/quantities.h"
 
 namespace dem::texture {
@@ -98,15 +99,15 @@ double strain_at(const std::vector<HistoryRow>& h, double step) {
 }
 
 // Cracks up to the end of the test; those of a test that was followed further are in its history.
-Table crack_table(const Specimen& specimen, const LoadingTest& test, double last_step) {
+Table crack_table(const Specimen& specimen, const Loading& loading, double last_step) {
   std::vector<double> time, strain, position, normal, area;
   std::vector<std::int32_t> mode, place, mineral_a, mineral_b, contact;
-  for (const Crack& c : test.assembly().cracks()) {
+  for (const Crack& c : loading.assembly().cracks()) {
     if (c.step > last_step) break;
     const BondSpec& bond = specimen.bonds[static_cast<std::size_t>(c.contact)];
     const auto mineral = [&](std::int32_t p) { return specimen.grains.mineral[static_cast<std::size_t>(p)]; };
-    time.push_back(c.step * test.assembly().time_step());
-    strain.push_back(strain_at(test.history(), c.step));
+    time.push_back(c.step * loading.assembly().time_step());
+    strain.push_back(strain_at(loading.history(), c.step));
     mode.push_back(c.shear);
     place.push_back(c.boundary);
     position.insert(position.end(), c.position.begin(), c.position.end());
@@ -163,16 +164,15 @@ Table history_table(const std::vector<HistoryRow>& h) {
 double cracks_in(const HistoryRow& r) { return r.cracks[0] + r.cracks[1] + r.cracks[2] + r.cracks[3]; }
 
 // Named moments, each with the nearest kept frame.
-void add_snapshots(Record& record, const LoadingTest& test, const Characteristics& c, bool compression,
-                   std::size_t end) {
-  const std::vector<HistoryRow>& h = test.history();
+void add_snapshots(Record& record, const Loading& loading, const Characteristics& c, std::size_t end) {
+  const std::vector<HistoryRow>& h = loading.history();
   std::vector<std::pair<std::string, std::size_t>> moments;
   const auto stress_row = [&](double stress) {
     std::size_t i = 0;
     while (i < c.peak && h[i].axial_stress < stress) ++i;
     return i;
   };
-  if (compression && c.damage) {
+  if (c.damage) {
     const double damage = h[*c.damage].axial_stress, peak = h[c.peak].axial_stress;
     if (c.initiation_stiffness) {
       moments.emplace_back("crack_initiation", *c.initiation_stiffness);
@@ -191,8 +191,8 @@ void add_snapshots(Record& record, const LoadingTest& test, const Characteristic
   moments.emplace_back("end", end);
   for (std::size_t k = 0; k < moments.size(); ++k) {
     const auto& [name, row] = moments[k];
-    const Frame* nearest = &test.frames().front();
-    for (const Frame& frame : test.frames()) {
+    const Frame* nearest = &loading.frames().front();
+    for (const Frame& frame : loading.frames()) {
       if (std::abs(static_cast<double>(frame.row) - static_cast<double>(row)) <
           std::abs(static_cast<double>(nearest->row) - static_cast<double>(row))) {
         nearest = &frame;
@@ -271,17 +271,17 @@ void add_specimen(Record& record, const Specimen& specimen, const Settings& sett
   add_specimen_tables(record, specimen, settings);
 }
 
-void add_test(Record& record, const Specimen& specimen, const Settings& settings, const LoadingTest& test) {
-  const bool compression = settings.test == TestKind::compression;
-  const std::vector<HistoryRow>& h = test.history();
-  const double confining = settings.confining_pressure;
-  const Characteristics c = characterise(h, settings.stiffness_departure, compression, confining);
-  const std::size_t end = test.end().value_or(h.size() - 1);
+void add_test(Record& record, const Specimen& specimen, const Settings& settings, const Loading& loading) {
+  const Test& test = settings.test;
+  const std::vector<HistoryRow>& h = loading.history();
+  const double confining = test.confining_pressure;
+  const Characteristics c = characterise(h, settings.stiffness_departure, test.crack_stages, confining);
+  const std::size_t end = loading.end().value_or(h.size() - 1);
   if (c.young_modulus) record.put(quantity::young_modulus, *c.young_modulus * giga);
   if (c.poisson_ratio) record.put(quantity::poisson_ratio, *c.poisson_ratio);
-  record.put(compression ? quantity::compressive_strength : quantity::tensile_strength, h[c.peak].axial_stress * mega);
+  record.put(test.strength, h[c.peak].axial_stress * mega);
   record.put(quantity::peak_strain, h[c.peak].axial_strain);
-  if (settings.follow > 0 && compression) {
+  if (test.ending.follow > 0 && test.crack_stages) {
     // Mean over the last twentieth of the strain.
     double sum = 0, count = 0;
     for (const HistoryRow& r : h) {
@@ -296,7 +296,7 @@ void add_test(Record& record, const Specimen& specimen, const Settings& settings
     record.put(quantity::initiation_strain, h[*c.initiation_stiffness].axial_strain);
   }
   if (c.stress_at_strain) record.put(quantity::stress_at_strain, *c.stress_at_strain * mega);
-  if (compression && c.initiation_cracks) {
+  if (c.initiation_cracks) {
     record.put(quantity::initiation_by_cracks, h[*c.initiation_cracks].axial_stress * mega);
   }
   if (c.initiation_volume) record.put(quantity::initiation_by_volume, h[*c.initiation_volume].axial_stress * mega);
@@ -334,8 +334,8 @@ void add_test(Record& record, const Specimen& specimen, const Settings& settings
   record.put(quantity::particles, static_cast<double>(specimen.packing.radius.size()));
   record.put(quantity::contacts, static_cast<double>(specimen.bonds.size()));
   record.put(quantity::grains, static_cast<double>(specimen.seeds.radius.size()));
-  record.put(quantity::fresh_contacts, static_cast<double>(test.assembly().fresh_contacts()));
-  record.put(quantity::time_step, test.assembly().time_step());
+  record.put(quantity::fresh_contacts, static_cast<double>(loading.assembly().fresh_contacts()));
+  record.put(quantity::time_step, loading.assembly().time_step());
 
   record.checks.push_back(
       {"energy_residual", residual, residual_limit, residual <= residual_limit,
@@ -353,9 +353,9 @@ void add_test(Record& record, const Specimen& specimen, const Settings& settings
   }
 
   add_specimen_tables(record, specimen, settings);
-  record.tables.push_back(crack_table(specimen, test, h[end].step));
+  record.tables.push_back(crack_table(specimen, loading, h[end].step));
   record.tables.push_back(history_table(h));
-  add_snapshots(record, test, c, compression, end);
+  add_snapshots(record, loading, c, end);
 }
 
 }  // namespace dem::texture

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/texture/solver/slabs.h"
+
 namespace dem::texture {
 
 std::vector<BondSpec> group_contacts(const Packing& packing, const GrainMap& grains, const Settings& settings) {
@@ -67,11 +69,11 @@ AssemblyInput assembly_input(const Specimen& specimen, const Settings& settings)
   const double height = settings.packing.vessel.height;
   input.z_low = 0;
   input.z_high = height;
-  if (settings.test == TestKind::compression) {
-    input.platens = true;
-    if (settings.confining_pressure > 0) input.jacket_radius = settings.packing.vessel.diameter / 2;
-  } else {
-    const double thickness = settings.grip * height;
+  const Test& test = settings.test;
+  if (test.confining_pressure > 0) input.jacket_radius = settings.packing.vessel.diameter / 2;
+  input.platens = test.hold == Hold::platens;
+  if (test.hold == Hold::grips) {
+    const double thickness = test.grip * height;
     for (const Vec3& p : input.position) {
       input.grip.push_back(p[2] < thickness            ? std::int8_t{1}
                            : p[2] > height - thickness ? std::int8_t{2}

@@ -1,20 +1,17 @@
 #pragma once
 // From genesis to an assembly: the specimen in solver order, its contact groups, and the input of a test.
-#include <string>
 #include <vector>
 
 #include "engine/texture/genesis/specimen.h"
 #include "engine/texture/laws/properties.h"
-#include "engine/texture/solver/assembly.h"
+#include "engine/texture/loading/test.h"
+#include "engine/texture/solver/input.h"
 
 namespace dem::texture {
 
-/// `genesis`: the specimen is made and not loaded.
-enum class TestKind { compression, direct_tension, genesis };
-
 /// Everything that a case of this model depends on. SI units.
 struct Settings {
-  TestKind test = TestKind::compression;
+  Test test;
   PackingSettings packing;
   std::vector<Mineral> minerals;
   Interaction interaction;
@@ -26,16 +23,7 @@ struct Settings {
   bool one_mineral = false;             ///< the specimen is of one mineral alone, flat joints throughout
   double damping = 0.7;
   double time_step_factor = 0.8;
-  double rate = 1e-7;             ///< strain a step
-  double ramp_strain = 2e-5;      ///< platens or grips reach their speed over this strain
-  double stop = 0.8;              ///< the test ends at this share of the peak, after it
-  double strain_limit = 3;        ///< or at this multiple of the strain of the peak (compression)
-  double follow = 0;              ///< a compression goes on after its end to this multiple of the strain of the peak
-  double confining_pressure = 0;  ///< Pa
-  double confining_step = 5e3;    ///< Pa a step, while the confining pressure is raised
-  double sample_strain = 1e-5;    ///< between samples
-  double grip = 0.05;             ///< thickness of a gripped disc over the height
-  double gauge = 0.6;             ///< length of the strain gauge over the height
+  double gauge = 0.6;                 ///< length of the strain gauge over the height
   double stiffness_departure = 0.02;  ///< of the axial stiffness at crack initiation
 };
 
@@ -53,6 +41,7 @@ Specimen make_specimen(const Settings& settings, RunContext& context);
 /// Step 4 alone: the law and the parameters of each contact.
 std::vector<BondSpec> group_contacts(const Packing& packing, const GrainMap& grains, const Settings& settings);
 
+/// The specimen between the platens, or in the grips, of its test.
 AssemblyInput assembly_input(const Specimen& specimen, const Settings& settings);
 
 }  // namespace dem::texture

@@ -8,14 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "render/style.h"
+
 namespace render {
 
-struct Colour {
-  double red = 0, green = 0, blue = 0;  ///< 0 ... 1
-};
-
-enum class Line { none, solid, dash, dot, dash_dot };
-enum class Marker { none, circle, square, diamond, triangle, cross };
 enum class Side { left, right };  ///< which value axis
 
 struct Axis {
@@ -93,8 +89,5 @@ struct Chart {
   } legend = Legend::top_left;
   int width = 720, height = 480;  ///< px at 100 dpi; PNG is drawn at twice that
 };
-
-/// Colours that stay apart for colour-blind readers and in grey print (Okabe & Ito 2008), by index.
-Colour palette(std::size_t index);
 
 }  // namespace render

@@ -5,8 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "render/chart/chart.h"
-#include "render/draw.h"
+#include "render/style.h"
 
 namespace render {
 

@@ -15,7 +15,7 @@
 #include <numbers>
 
 #include "engine/core/errors.h"
-#include "render/chart/dashes.h"
+#include "render/dashes.h"
 #include "render/paper/text.h"
 #include "render/scene/vtk_triangles.h"
 

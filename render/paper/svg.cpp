@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "render/chart/dashes.h"
+#include "render/dashes.h"
 #include "render/paper/paper.h"
 
 namespace render {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "render/chart/chart.h"
+#include "render/style.h"
 
 namespace render {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "render/chart/dashes.h"
+#include "render/dashes.h"
 
 namespace render {
 

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "engine/core/errors.h"
+#include "engine/core/instruction_set.h"
 #include "engine/study/study.h"
 #include "reports/commands/assets.h"
 #include "reports/commands/machine.h"
@@ -59,6 +60,7 @@ int perform(const Arguments& arguments) {
   const RunRequest request = run_request(arguments);
   const std::vector<dem::Study> studies = checked_studies(request);
   if (request.pdf) require_weasyprint();
+  (void)dem::instruction_sets();  // a wrong DEM_SIMD is found before anything runs
   Reporter reporter(reporter_options(request));
   listen_to_signals();
   dem::ProgressPrinter progress = progress_printer(request.quiet);

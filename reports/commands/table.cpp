@@ -7,7 +7,7 @@ namespace cli {
 std::span<const Command> commands() {
   static const std::vector<Command> table = {
       verbs::run(),  //
-      verbs::figures(), verbs::keys(), verbs::help(), verbs::version(),
+      verbs::figures(), verbs::keys(), verbs::results(), verbs::help(), verbs::version(),
   };
   return table;
 }

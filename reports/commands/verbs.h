@@ -7,6 +7,7 @@ namespace cli::verbs {
 Command run();      ///< run.cpp
 Command figures();  ///< figures.cpp
 Command keys();     ///< keys.cpp
+Command results();  ///< results.cpp
 Command help();     ///< help.cpp
 Command version();  ///< version.cpp
 

@@ -7,9 +7,7 @@
 #include <cmath>
 
 #include "engine/analysis/ledger.h"
-#include "reports/figures/table.h"
-#include "reports/figures/texture/parts.h"
-#include "reports/page/text.h"
+#include "reports/text.h"
 
 namespace reports {
 namespace {
@@ -192,18 +190,4 @@ FigureContent energy_figure(const StudyResult& study, std::string_view test, con
   return content;
 }
 
-namespace texture {
-
-// Against the strain of the platens, which only grows: that of the gauge springs back where a band fails outside it.
-FigureContent energy_compression(const StudyResult& study) {
-  return energy_figure(study, test_compression, swept(study, test_compression), "platen_strain",
-                       "Strain of the platens (%)", 100);
-}
-
-FigureContent energy_tension(const StudyResult& study) {
-  return energy_figure(study, test_tension, swept(study, test_tension), "platen_strain", "Strain of the platens (%)",
-                       100);
-}
-
-}  // namespace texture
 }  // namespace reports

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numeric>
 
-#include "reports/page/text.h"
+#include "reports/text.h"
 
 namespace reports {
 namespace {
@@ -35,23 +35,6 @@ std::vector<SeriesCase> series_of(const StudyResult& study, std::string_view tes
 }
 
 std::vector<analysis::Point> points_of(const std::vector<SeriesCase>& cases) { return {cases.begin(), cases.end()}; }
-
-std::string axis_title(const dem::Parameter& parameter) {
-  return std::string(parameter.name) + (parameter.unit.empty() ? "" : " (" + std::string(parameter.unit) + ")");
-}
-
-std::string axis_title(const dem::Quantity& quantity) {
-  const std::string_view unit = quantity.shown_unit();
-  return std::string(quantity.name) + (unit.empty() ? "" : " (" + std::string(unit) + ")");
-}
-
-std::string parameter_words(const dem::Parameter& parameter, const dem::ParameterValue& value) {
-  const std::string text = parameter_text(value);
-  if (text.empty()) return {};
-  const std::string unit(parameter.unit);
-  return (parameter.symbol.empty() ? "" : std::string(parameter.symbol) + " ") + text +
-         (unit.empty() || unit == "°" ? unit : " " + unit);
-}
 
 render::Series means(const std::vector<SeriesCase>& cases, const ValueOf& value) {
   render::Series series;

@@ -10,6 +10,7 @@
 
 #include "engine/analysis/series.h"
 #include "reports/figure.h"
+#include "reports/text.h"
 
 namespace reports {
 
@@ -29,12 +30,6 @@ std::vector<analysis::Point> points_of(const std::vector<SeriesCase>& cases);
 using analysis::shown;
 using analysis::Spread;
 using analysis::ValueOf;
-
-/// "Confining pressure σ₃ (MPa)", "Young’s modulus E (GPa)": titles of axes and heads of columns.
-std::string axis_title(const dem::Parameter& parameter);
-std::string axis_title(const dem::Quantity& quantity);
-/// "AR 2", "dip 45°", "σ₃ 10 MPa", "quartz"; "" where there is nothing to say.
-std::string parameter_words(const dem::Parameter& parameter, const dem::ParameterValue& value);
 
 /// Means of a value along the swept parameter, with error bars of one standard deviation where there are repeats.
 render::Series means(const std::vector<SeriesCase>& cases, const ValueOf& value);

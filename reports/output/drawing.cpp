@@ -14,7 +14,7 @@
 #include "reports/figures/parts.h"
 #include "reports/output/csv.h"
 #include "reports/output/workers.h"
-#include "reports/page/text.h"
+#include "reports/text.h"
 
 namespace reports {
 namespace {

@@ -10,9 +10,9 @@
 #include "reports/output/pdf.h"
 #include "reports/output/summary.h"
 #include "reports/page/page.h"
-#include "reports/page/text.h"
 #include "reports/published/papers.h"
 #include "reports/published/published.h"
+#include "reports/text.h"
 
 namespace reports {
 namespace {

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "reports/output/drawing.h"
-#include "reports/published/published.h"
+#include "reports/drawn.h"
 #include "reports/options.h"
+#include "reports/published/published.h"
 
 namespace reports {
 

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "reports/output/drawing.h"
-#include "reports/published/published.h"
+#include "reports/drawn.h"
 #include "reports/options.h"
+#include "reports/published/published.h"
 
 namespace reports {
 
@@ -16,8 +16,5 @@ enum class Images { embedded, linked };
 /// Throws dem::EnvironmentError when an asset is missing or broken.
 std::string page(const StudyResult& study, const Comparisons& comparisons, const std::vector<DrawnFigure>& figures,
                  const ReportOptions& options, Images images = Images::embedded);
-
-/// RFC 4648.
-std::string base64(std::string_view bytes);
 
 }  // namespace reports

@@ -5,18 +5,19 @@
 #include <cmath>
 #include <span>
 
+#include "engine/core/base64.h"
 #include "engine/core/files.h"
 #include "reports/page/page.h"
 #include "reports/page/page_parts.h"
 #include "reports/page/page_tables.h"
-#include "reports/page/text.h"
+#include "reports/text.h"
 
 namespace reports {
 namespace {
 
 std::string data_uri(const std::filesystem::path& file) {
   const std::string type = file.extension() == ".svg" ? "image/svg+xml" : "image/png";
-  return "data:" + type + ";base64," + base64(dem::read_file(file));
+  return "data:" + type + ";base64," + dem::base64(dem::read_file(file));
 }
 
 std::string colour_code(const render::Colour& colour) {

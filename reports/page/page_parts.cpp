@@ -12,10 +12,9 @@
 #include "engine/analysis/statistics.h"
 #include "engine/core/files.h"
 #include "engine/model/quantities.h"
-#include "reports/figures/parts.h"
 #include "reports/page/page.h"
 #include "reports/page/page_tables.h"
-#include "reports/page/text.h"
+#include "reports/text.h"
 
 namespace reports {
 namespace {

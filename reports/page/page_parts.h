@@ -6,9 +6,9 @@
 
 #include <kainjow/mustache.hpp>
 
-#include "reports/output/drawing.h"
-#include "reports/published/published.h"
+#include "reports/drawn.h"
 #include "reports/options.h"
+#include "reports/published/published.h"
 
 namespace reports {
 

@@ -5,7 +5,7 @@
 
 #include "engine/analysis/orientation.h"
 #include "engine/analysis/softening.h"
-#include "reports/figures/texture/parts.h"
+#include "reports/granite.h"
 
 namespace reports {
 

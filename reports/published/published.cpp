@@ -10,9 +10,9 @@
 #include "engine/analysis/statistics.h"
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
-#include "reports/page/text.h"
 #include "reports/published/papers.h"
 #include "reports/published/terms.h"
+#include "reports/text.h"
 
 namespace reports {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "engine/core/errors.h"
 #include "engine/model/case.h"
-#include "reports/page/text.h"
 #include "reports/published/derived.h"
+#include "reports/text.h"
 
 namespace reports {
 namespace {

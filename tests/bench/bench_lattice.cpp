@@ -45,9 +45,9 @@ dem::lattice::Setup quartzite(int threads, std::size_t elements) {
 struct Rate {
   double best = 0, median = 0, best_cpu = 0;  // bond updates a second; the last by the calling thread's own time
 };
-Rate rate_of(const Block& block, int threads, std::string_view kernel) {
+Rate rate_of(const Block& block, int threads, dem::InstructionSet set) {
   dem::lattice::Setup setup = quartzite(threads, block.site.size());
-  setup.kernel = kernel;
+  setup.set = set;
   dem::lattice::Solver solver(block, setup);
   const int steps = std::max(1, static_cast<int>(3e5 / static_cast<double>(block.bonds.size())));
   solver.run(100, -1.7e-9, 1.7e-9);
@@ -86,17 +86,22 @@ double copy_bandwidth(std::size_t bytes) {
 }  // namespace
 
 int main() {
-  for (const int ny : {12, 30}) {
+  for (const int ny : {2, 4, 7, 12, 30}) {
     const Block block = dem::lattice::make_block(dem::lattice::block_shape(ny), 1e-3);
     const std::size_t n = block.site.size();
-    for (const auto kernel : dem::lattice::kernels()) {
+    for (const dem::InstructionSet set : dem::instruction_sets()) {
+      const std::string_view kernel = dem::name_of(set);
       for (const int threads : {1, 2}) {
-        const Rate rate = rate_of(block, threads, kernel);
+        if (threads > 1 && n < 1000) continue;  // as in the model
+        const Rate rate = rate_of(block, threads, set);
         print(fmt::format("bond_updates_{}", kernel), rate.best, "1/s", threads, n);
         print(fmt::format("bond_updates_{}_median", kernel), rate.median, "1/s", threads, n);
         if (threads == 1) print(fmt::format("bond_updates_{}_cpu", kernel), rate.best_cpu, "1/s", threads, n);
       }
     }
+    const double start = thread_seconds();
+    const dem::InstructionSet chosen = dem::lattice::fastest_set(block, quartzite(2, n));
+    print(fmt::format("choice_of_{}", dem::name_of(chosen)), thread_seconds() - start, "s", 1, n);
     dem::lattice::Solver solver(block, quartzite(1, n));
     print("state", static_cast<double>(solver.bytes()) / static_cast<double>(block.bonds.size()), "B/bond", 1, n);
     print("copy_same_size", copy_bandwidth(solver.bytes()), "B/s", 1, n);

@@ -42,6 +42,18 @@ TEST_CASE("the reference of the scenario keys is what the program says of them")
                            << kept.string());
 }
 
+TEST_CASE("the reference of the results is what the program says of them") {
+  const test::Scratch folder;
+  const std::string page = test::run_program(folder.path(), {"results", "--markdown"}).out;
+  CHECK(has(page, "| `compressive_strength` |"));
+  CHECK(has(test::run_program(folder.path(), {"results", "lattice"}).out,
+            "breaking_displacement: Breaking displacement"));
+  const std::filesystem::path kept = DEM_SOURCE_DIR "/docs/use/results.md";
+  if (std::filesystem::exists(kept) && dem::read_file(kept) == page) return;
+  FAIL_CHECK(kept.string() << " is not what the program says; to refresh it: " DEM_PROGRAM " results --markdown > "
+                           << kept.string());
+}
+
 TEST_CASE("verbs do what the flags of the same meaning do") {
   const test::Scratch folder;
   const auto out = [&](const std::vector<std::string>& words) { return test::run_program(folder.path(), words).out; };

@@ -1,6 +1,7 @@
 // The motion of the close-packed lattice: ledger, momentum, waves, the same bits for any threads and vector width.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/core/random.h"
@@ -39,11 +40,11 @@ TEST_CASE("results are the same bits for every number of threads and vector widt
       const Block block = make_block(block_shape(7), 1e-3);
       Solver::State first;
       double kinetic = 0;
-      for (const auto kernel : kernels()) {
+      for (const dem::InstructionSet set : dem::instruction_sets()) {
         for (const int threads : {1, 2, 3, 7}) {
           Setup s = quartzite(block, planes);
           s.axis = axis;
-          s.kernel = kernel;
+          s.set = set;
           s.threads = threads;
           Solver solver(block, s);
           shake(solver, block, 8.0, s.time_step);
@@ -66,6 +67,15 @@ TEST_CASE("results are the same bits for every number of threads and vector widt
     }
   }
   CHECK(slid > 20);
+}
+
+TEST_CASE("the instruction set of a block is one that the processor has") {
+  for (const int ny : {2, 7}) {
+    const Block block = make_block(block_shape(ny), 1e-3);
+    const std::vector<dem::InstructionSet> sets = dem::instruction_sets();
+    const dem::InstructionSet found = fastest_set(block, quartzite(block, PlaneKind::elastic));
+    CHECK(std::find(sets.begin(), sets.end(), found) != sets.end());
+  }
 }
 
 TEST_CASE("energy is accounted for while bonds break, slide and part") {

@@ -10,6 +10,7 @@
 #include "engine/core/archive.h"
 #include "engine/core/random.h"
 #include "engine/texture/keys.h"
+#include "engine/texture/loading/compression.h"
 #include "engine/texture/loading/loading.h"
 #include "engine/texture/model.h"
 #include "engine/texture/solver/packs.h"
@@ -23,9 +24,9 @@ namespace {
 
 Settings confined(double pressure) {
   Settings s = dem_test::granite(6.25, 12.5);
-  s.rate = 2e-7;
-  s.confining_pressure = pressure;
-  s.confining_step = 2e4;
+  s.test = compression(pressure);
+  s.test.rate = 2e-7;
+  s.test.confining_step = 2e4;
   return s;
 }
 
@@ -37,8 +38,8 @@ const Specimen& specimen() {
   return one;
 }
 
-LoadingTest loaded(double pressure, double strain) {
-  LoadingTest test(specimen(), confined(pressure), 1);
+Loading loaded(double pressure, double strain) {
+  Loading test(specimen(), confined(pressure), 1);
   while (test.history().empty() || test.history().back().platen_strain < strain) test.advance();
   return test;
 }
@@ -47,7 +48,7 @@ LoadingTest loaded(double pressure, double strain) {
 
 TEST_CASE("a specimen starts from the isotropic pressure and keeps it on its sides") {
   const double pressure = 20e6;
-  const LoadingTest test = loaded(pressure, 1.5e-3);
+  const Loading test = loaded(pressure, 1.5e-3);
   const HistoryRow &first = test.history().front(), &last = test.history().back();
   CHECK(first.axial_stress == test::near(pressure).epsilon(0.01));
   CHECK(first.axial_strain == doctest::Approx(0).epsilon(1e-5));
@@ -55,7 +56,7 @@ TEST_CASE("a specimen starts from the isotropic pressure and keeps it on its sid
   CHECK(std::abs(last.ledger.residual()) < 1e-3 * last.ledger.work);
   // The pressure on the sides hardly changes the slope of stress over strain while nothing has broken: it closes the linear
   // parts of some grain boundaries, 3 % here.
-  const LoadingTest free = loaded(0, 1.5e-3);
+  const Loading free = loaded(0, 1.5e-3);
   const auto slope = [](const std::vector<HistoryRow>& h) {
     return (h[60].axial_stress - h[20].axial_stress) / (h[60].axial_strain - h[20].axial_strain);
   };
@@ -79,7 +80,7 @@ TEST_CASE("an isotropic pressure strains a specimen alike in all directions") {
 TEST_CASE("a confined test that is cut goes on to the same bits") {
   for (const bool while_confining : {true, false}) {
     CAPTURE(while_confining);
-    LoadingTest whole(specimen(), confined(10e6), 1), cut(specimen(), confined(10e6), 1);
+    Loading whole(specimen(), confined(10e6), 1), cut(specimen(), confined(10e6), 1);
     const int chunks = while_confining ? 4 : 40;
     for (int k = 0; k < chunks; ++k) {
       whole.advance();
@@ -87,7 +88,7 @@ TEST_CASE("a confined test that is cut goes on to the same bits") {
     }
     dem::ArchiveWriter writer;
     writer(cut);
-    LoadingTest resumed(specimen(), confined(10e6), 1);
+    Loading resumed(specimen(), confined(10e6), 1);
     dem::ArchiveReader reader(writer.bytes());
     reader(resumed);
     for (int k = 0; k < 20; ++k) {
@@ -290,7 +291,7 @@ TEST_CASE("tests under confining pressure have a rate of their own") {
                                              [](std::string_view) { return keys(); }));
   };
   const std::string both = R"(sweep.confining_pressure=["0 MPa", "10 MPa"])";
-  const auto rate = [](const dem::CaseSpec& spec) { return read_settings(spec.scenario, TestKind::compression).rate; };
+  const auto rate = [](const dem::CaseSpec& spec) { return read_settings(spec.scenario, "compression").test.rate; };
   const auto own = cases({both, "compression.rate=5e-8", "compression.confined_rate=1e-7"});
   CHECK(rate(own[0]) == 5e-8);
   CHECK(rate(own[1]) == 1e-7);

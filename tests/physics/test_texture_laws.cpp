@@ -1,4 +1,4 @@
-// Bond laws against closed forms: stiffness, failure loads, partial damage, force against stored energy.
+// Laws: what holds for each of them, and bonds against closed forms (stiffness, failure loads, partial damage).
 #include <doctest/doctest.h>
 
 #include <array>
@@ -9,10 +9,13 @@
 #include "engine/texture/laws/parallel_bond.h"
 #include "engine/texture/laws/properties.h"
 #include "tests/support/granite.h"
+#include "tests/support/law_checks.h"
+#include "tests/support/laws.h"
 #include "tests/support/near.h"
 
 using namespace dem::texture;
 using T = Triple<double>;
+using dem_test::turned;
 
 namespace {
 
@@ -26,13 +29,6 @@ struct Pair {
   double share = 0.5 * (0.88e-3 + 0.4e-3 - 0.5e-3) / 0.88e-3;
   double r = 0.4e-3, both = 0.9e-3;
 };
-
-Quaternion<double> turned(const T& angle) {
-  const double a = root(dot(angle, angle));
-  if (a == 0) return {1, 0, 0, 0};
-  const double s = std::sin(a / 2) / a;
-  return {std::cos(a / 2), s * angle.x, s * angle.y, s * angle.z};
-}
 
 PartlyBrokenJoint joint(const Pair& pair, const ContactGroup& g) {
   PartlyBrokenJoint j;
@@ -64,6 +60,41 @@ Pose<double> moved(const Pair& pair, const T& u, const T& angle) {
 const Pose<double> at_rest{{0, 0, 0}, {1, 0, 0, 0}};
 
 }  // namespace
+
+TEST_CASE("every law: force is the gradient of the energy, action is reaction, rest is free, nothing cools") {
+  const ContactGroup grain = inside(feldspar(), JointModulus::sum);
+  const ContactGroup boundary = between(feldspar(), feldspar(), {0.9, 2.0, 1.0, 0.25, 0.7, 1.0});
+  ContactGroup strong = grain, loose = boundary;
+  strong.tensile_strength = strong.cohesion = 1e15;  // Pa
+  loose.tensile_strength = 1, loose.cohesion = 0;
+  const dem_test::PairLaw broken = dem_test::partly_broken(joint(Pair{}, strong), strong);
+  using Wall = dem_test::WallLaw;
+  dem_test::check_law("flat joint, intact", dem_test::bonded(strong, false), false);
+  dem_test::check_law("flat joint, one element broken", broken, true);
+  dem_test::check_law("flat joint, one element broken, scalar", dem_test::scalar(broken), true);
+  dem_test::check_law("flat joint, breaking", dem_test::bonded(grain, false), true);
+  dem_test::check_law("parallel bond", dem_test::bonded(boundary, true), true);
+  dem_test::check_law("parallel bond, breaking", dem_test::bonded(loose, true), true);
+  dem_test::check_law("linear contact", dem_test::touching(grain), true);
+  dem_test::check_law("wall contact, lower platen", dem_test::wall(Wall::lower, grain.modulus), false);
+  dem_test::check_law("wall contact, upper platen", dem_test::wall(Wall::upper, grain.modulus), false);
+  dem_test::check_law("wall contact, jacket", dem_test::wall(Wall::jacket, grain.modulus), false);
+}
+
+TEST_CASE(
+    "wall contact: push and stiffness are the first and second derivative of the energy by the place of the wall") {
+  const double r = 0.4e-3, h = 1e-9;
+  const WallContact contact{-2e-6, wall_stiffness(48e9, r)};
+  CHECK(contact.stiffness == test::near(48e9 * 3.141592653589793 * r));
+  for (const double overlap : {1e-6, 3e-6}) {  // less and more than at rest
+    const double away = 4.6e-3 + overlap;
+    const auto at = [&](double jacket) { return advance(contact, jacket_gap(jacket, away, r)); };
+    const WallResult here = at(5e-3);
+    CHECK(std::abs((at(5e-3 + h).energy - at(5e-3 - h).energy) / (2 * h) + here.push) < 1e-6 * contact.stiffness * r);
+    CHECK(std::abs((at(5e-3 + h).push - at(5e-3 - h).push) / (2 * h) + here.stiffness) < 1e-6 * contact.stiffness);
+    CHECK((here.push > 0) == (overlap > 2e-6));
+  }
+}
 
 TEST_CASE("flat joint: small motions give the stiffness of three elements") {
   const Pair pair;
@@ -146,13 +177,7 @@ TEST_CASE("force and moments are the derivative of the stored energy, at finite 
     for (int a = 0; a < 3; ++a) {
       const double h = 1e-8, w = 1e-5;
       const auto shift = [&](double s) { return Pose<double>{two.x + s * axes[a], two.q}; };
-      const auto turn = [&](const Pose<double>& p, double s) {
-        const Quaternion<double> t = turned(s * axes[a]), q = p.q;  // t times q
-        return Pose<double>{
-            p.x,
-            {t.w * q.w - t.x * q.x - t.y * q.y - t.z * q.z, t.w * q.x + t.x * q.w + t.y * q.z - t.z * q.y,
-             t.w * q.y - t.x * q.z + t.y * q.w + t.z * q.x, t.w * q.z + t.x * q.y - t.y * q.x + t.z * q.w}};
-      };
+      const auto turn = [&](const Pose<double>& p, double s) { return dem_test::displaced(p, {0, 0, 0}, s * axes[a]); };
       CHECK(std::abs(-(u(one, shift(h)) - u(one, shift(-h))) / (2 * h) - force[a]) < 1e-7 * scale);
       CHECK(std::abs(-(u(turn(one, w), two) - u(turn(one, -w), two)) / (2 * w) - m1[a]) < 1e-7 * scale * pair.r);
       CHECK(std::abs(-(u(one, turn(two, w)) - u(one, turn(two, -w))) / (2 * w) - m2[a]) < 1e-7 * scale * pair.r);

@@ -21,15 +21,14 @@ double strength(const std::string& scenario, const std::string& id, double share
   const auto cases = model().cases(file);
   const auto spec = std::ranges::find(cases, id, &dem::CaseSpec::id);
   REQUIRE(spec != cases.end());
-  Settings s =
-      read_settings(spec->scenario, id.starts_with("compression") ? TestKind::compression : TestKind::direct_tension);
-  s.rate *= share;
-  s.follow = 0;
+  Settings s = read_settings(spec->scenario, std::get<std::string>(spec->parameters.front().second));
+  s.test.rate *= share;
+  s.test.ending.follow = 0;
   dem::RunContext context;
   context.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   context.specimens = std::filesystem::temp_directory_path() / "dem-test-rate";
   std::filesystem::create_directories(context.specimens);
-  LoadingTest test(make_specimen(s, context), s, context.threads);
+  Loading test(make_specimen(s, context), s, context.threads);
   while (test.advance()) {
   }
   double peak = 0;

@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "engine/core/cell_grid.h"
 #include "engine/core/files.h"
 #include "engine/core/random.h"
 #include "engine/texture/keys.h"
@@ -89,27 +90,15 @@ void assign_grains(Body& body, double aspect_ratio) {
 }
 
 void find_contacts(Body& body) {
-  const double cell = 1.2e-3;
-  std::map<std::array<int, 3>, std::vector<std::int32_t>> cells;
-  const auto key = [&](const Vec& p) {
-    return std::array<int, 3>{static_cast<int>(std::floor(p[0] / cell)), static_cast<int>(std::floor(p[1] / cell)),
-                              static_cast<int>(std::floor(p[2] / cell))};
-  };
-  for (std::size_t i = 0; i < body.position.size(); ++i)
-    cells[key(body.position[i])].push_back(static_cast<std::int32_t>(i));
+  const dem::CellGrid grid(body.position.size(), 1.2e-3, [&](std::size_t i) { return body.position[i]; });
   for (std::size_t i = 0; i < body.position.size(); ++i) {
-    const auto home = key(body.position[i]);
-    for (int n = 0; n < 27; ++n) {
-      const auto found = cells.find({home[0] + n % 3 - 1, home[1] + n / 3 % 3 - 1, home[2] + n / 9 - 1});
-      if (found == cells.end()) continue;
-      for (const std::int32_t j : found->second) {
-        const auto other = static_cast<std::size_t>(j);
-        if (other <= i) continue;
-        if (distance(body.position[i], body.position[other]) < 1.08 * (body.radius[i] + body.radius[other])) {
-          body.pairs.push_back({static_cast<std::int32_t>(i), j});
-        }
+    grid.around(body.position[i], [&](std::int32_t j) {
+      const auto other = static_cast<std::size_t>(j);
+      if (other <= i) return;
+      if (distance(body.position[i], body.position[other]) < 1.08 * (body.radius[i] + body.radius[other])) {
+        body.pairs.push_back({static_cast<std::int32_t>(i), j});
       }
-    }
+    });
   }
 }
 

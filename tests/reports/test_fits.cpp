@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "engine/analysis/fits.h"
@@ -27,6 +28,23 @@ TEST_CASE("Student's t agrees with the tables") {
   CHECK(dem::analysis::student_limit(0.05, 10) == Approx(2.228139).epsilon(1e-6));
   CHECK(dem::analysis::student_limit(0.01, 4) == Approx(4.604095).epsilon(1e-6));
   CHECK(dem::analysis::student_two_sided(0, 5) == Approx(1));
+  CHECK(dem::analysis::student_two_sided(-2.228139, 10) == Approx(0.05).epsilon(1e-6));
+  CHECK(dem::analysis::student_limit(dem::analysis::student_two_sided(3.5, 7), 7) == Approx(3.5).epsilon(1e-14));
+}
+
+TEST_CASE("Student's t says NaN, 0 or infinity where there is no answer, and throws nothing") {
+  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+  CHECK(std::isnan(dem::analysis::student_two_sided(nan, 3)));
+  CHECK(std::isnan(dem::analysis::student_two_sided(1, 0)));
+  CHECK(std::isnan(dem::analysis::student_two_sided(1, nan)));
+  CHECK(dem::analysis::student_two_sided(infinity, 3) == 0);
+  CHECK(dem::analysis::student_two_sided(-infinity, 3) == 0);
+  CHECK(std::isnan(dem::analysis::student_limit(0.05, 0)));
+  CHECK(std::isnan(dem::analysis::student_limit(0.05, -1)));
+  CHECK(std::isnan(dem::analysis::student_limit(nan, 3)));
+  CHECK(std::isnan(dem::analysis::student_limit(3, 3)));
+  CHECK(dem::analysis::student_limit(0, 3) == infinity);
+  CHECK(dem::analysis::student_limit(1, 3) == 0);
 }
 
 TEST_CASE("two points give a line without an interval; one place gives none") {

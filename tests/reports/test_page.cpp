@@ -98,6 +98,21 @@ TEST_CASE("every figure is drawn and every file named in the summary is there") 
   CHECK(nlohmann::json::parse(file("run.json")).at("threads") == 2);
 }
 
+TEST_CASE("summary.json is as its schema says") {
+  const auto check = [](const std::filesystem::path& summary) {
+    return run("/usr/bin/python3 -m jsonschema -i '" + summary.string() + "' '" +
+               (assets / "summary.schema.json").string() + "'");
+  };
+  const Ran good = check(whole().folder / "summary.json");
+  CAPTURE(good.output);
+  CHECK(good.status == 0);
+  const test::Scratch scratch;
+  auto broken = nlohmann::json::parse(file("summary.json"));
+  broken["cases"][0]["results"]["young_modulus"] = "stiff";
+  dem::write_file(scratch / "summary.json", broken.dump());
+  CHECK(check(scratch / "summary.json").status != 0);
+}
+
 TEST_CASE("the page is valid HTML") {
   const Ran tidy = run("tidy -quiet -errors -utf8 --show-info no '" + (whole().folder / "report.html").string() + "'");
   CHECK(tidy.output == "");

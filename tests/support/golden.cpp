@@ -1,4 +1,5 @@
 #include "tests/support/golden.h"
+#include "render/compare.h"
 
 #include <doctest/doctest.h>
 

@@ -1,10 +1,12 @@
 #pragma once
-// Table 4 of Zhao et al. 2021 and small assemblies, for tests and benchmarks.
+// Table 4 of Zhao et al. 2021 (in compression) and small assemblies, for tests and benchmarks.
 #include <array>
 #include <numbers>
 
 #include "engine/core/random.h"
+#include "engine/texture/loading/compression.h"
 #include "engine/texture/setup.h"
+#include "engine/texture/solver/slabs.h"
 
 namespace dem_test {
 
@@ -24,6 +26,7 @@ inline dem::texture::Settings granite(double diameter_mm, double height_mm) {
   s.packing.radius_min = 0.35e-3;
   s.packing.modulus = 58e9;
   s.packing.pressure = 0.58e9;
+  s.test = dem::texture::compression();
   return s;
 }
 

@@ -8,6 +8,7 @@
 
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
+#include "render/compare.h"
 #include "render/png.h"
 #include "tests/support/golden.h"
 

@@ -8,9 +8,9 @@
 
 #include "engine/core/random.h"
 #include "render/chart/curve.h"
-#include "render/chart/dashes.h"
 #include "render/chart/occupancy.h"
 #include "render/chart/ticks.h"
+#include "render/dashes.h"
 #include "render/paper/paper.h"
 #include "render/scene/culling.h"
 

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+
+#include "engine/core/space_filling.h"
 
 namespace dem::texture {
 namespace {
@@ -23,17 +24,6 @@ constexpr double affine_slope = 1.17;
 // Mean contact force over pressure and squared mean radius, from the same numbers: 4 pi / (solid * Z).
 constexpr double typical_force = 2.7;
 constexpr double force_floor = 0.01;  // contacts below this part of the typical force are as good as none
-
-/// The three lowest-order digits of a Morton code are bit `b` of x, y and z.
-std::uint64_t morton(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-  std::uint64_t code = 0;
-  for (unsigned b = 0; b < 20; ++b) {
-    code |= static_cast<std::uint64_t>(x >> b & 1U) << (3 * b);
-    code |= static_cast<std::uint64_t>(y >> b & 1U) << (3 * b + 1);
-    code |= static_cast<std::uint64_t>(z >> b & 1U) << (3 * b + 2);
-  }
-  return code;
-}
 
 double mean_radius(const std::vector<Sphere>& spheres) {
   double sum = 0;
@@ -168,12 +158,12 @@ std::vector<Sphere> draw_cloud(const PackingSettings& settings) {
 std::vector<std::array<std::int32_t, 2>> touching(const std::vector<Sphere>& spheres) {
   double largest = 0;
   for (const Sphere& s : spheres) largest = std::max(largest, s.r);
-  const CellGrid grid(spheres, 2 * largest);
+  const CellGrid grid = cells_of(spheres, 2 * largest);
   std::vector<std::array<std::int32_t, 2>> pairs;
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const Sphere& s = spheres[i];
     const std::size_t first = pairs.size();
-    grid.around(s.x, s.y, s.z, [&](std::int32_t j) {
+    grid.around({s.x, s.y, s.z}, [&](std::int32_t j) {
       if (j <= static_cast<std::int32_t>(i)) return;
       const Sphere& t = spheres[j];
       const double dx = s.x - t.x, dy = s.y - t.y, dz = s.z - t.z;
@@ -206,9 +196,7 @@ Vec3 random_place(const Cylinder& vessel, double r, std::uint64_t seed, Purpose 
 }
 
 std::vector<std::size_t> space_filling_order(const std::vector<Sphere>& spheres) {
-  std::vector<std::size_t> order(spheres.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  if (spheres.empty()) return order;
+  if (spheres.empty()) return {};
   const double radius = mean_radius(spheres);
   double low_x = spheres[0].x, low_y = spheres[0].y, low_z = spheres[0].z;
   for (const Sphere& s : spheres) {
@@ -217,14 +205,11 @@ std::vector<std::size_t> space_filling_order(const std::vector<Sphere>& spheres)
     low_z = std::min(low_z, s.z);
   }
   const auto cell = [radius](double from_low) { return static_cast<std::uint32_t>(from_low / radius); };
-  std::vector<std::array<std::uint64_t, 2>> key(spheres.size());
-  for (std::size_t i = 0; i < spheres.size(); ++i) {
+  return slab_order<std::size_t>(spheres.size(), [&](std::size_t i) -> SlabCell {
     const Sphere& s = spheres[i];
     const std::uint32_t z = cell(s.z - low_z);
-    key[i] = {z / 6, morton(cell(s.x - low_x), cell(s.y - low_y), z % 6)};
-  }
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key[a] < key[b]; });
-  return order;
+    return {z / 6, cell(s.x - low_x), cell(s.y - low_y), z % 6};
+  });
 }
 
 Settled settle(const Cylinder& vessel, std::vector<Sphere> cloud, const SettleGoal& goal, RunContext& context) {

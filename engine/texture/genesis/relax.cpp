@@ -3,8 +3,8 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace dem::texture {
@@ -19,43 +19,8 @@ double mass(double r) { return pi * r; }
 
 }  // namespace
 
-CellGrid::CellGrid(const std::vector<Sphere>& spheres, double edge) : edge_(edge) {
-  const double infinity = std::numeric_limits<double>::infinity();
-  std::array<double, 3> low{infinity, infinity, infinity};
-  std::array<double, 3> high{-infinity, -infinity, -infinity};
-  for (const Sphere& s : spheres) {
-    const std::array<double, 3> at{s.x, s.y, s.z};
-    for (int a = 0; a < 3; ++a) {
-      low[a] = std::min(low[a], at[a]);
-      high[a] = std::max(high[a], at[a]);
-    }
-  }
-  for (int a = 0; a < 3; ++a) {
-    origin_[a] = spheres.empty() ? 0 : low[a];
-    count_[a] = spheres.empty() ? 1 : 1 + static_cast<int>((high[a] - low[a]) / edge);
-  }
-  const auto index_of = [this](const Sphere& s) {
-    const auto c = cell_of(s.x, s.y, s.z);
-    return (static_cast<std::size_t>(c[2]) * count_[1] + c[1]) * count_[0] + c[0];
-  };
-  first_.assign(static_cast<std::size_t>(count_[0]) * count_[1] * count_[2] + 1, 0);
-  std::vector<std::size_t> cell(spheres.size());
-  for (std::size_t i = 0; i < spheres.size(); ++i) {
-    cell[i] = index_of(spheres[i]);
-    ++first_[cell[i] + 1];
-  }
-  for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
-  member_.resize(spheres.size());
-  std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
-  for (std::size_t i = 0; i < spheres.size(); ++i) member_[next[cell[i]]++] = static_cast<std::int32_t>(i);
-}
-
-std::array<int, 3> CellGrid::cell_of(double x, double y, double z) const {
-  const std::array<double, 3> at{x, y, z};
-  std::array<int, 3> cell{};
-  for (int a = 0; a < 3; ++a)
-    cell[a] = std::clamp(static_cast<int>(std::floor((at[a] - origin_[a]) / edge_)), 0, count_[a] - 1);
-  return cell;
+CellGrid cells_of(const std::vector<Sphere>& spheres, double edge) {
+  return {spheres.size(), edge, [&](std::size_t i) { return std::array{spheres[i].x, spheres[i].y, spheres[i].z}; }};
 }
 
 void Pile::Sums::add(const Sums& other) {
@@ -101,7 +66,7 @@ void Pile::keep_only(const std::vector<bool>& keep) {
 void Pile::find_neighbours(double skin) {
   double largest = 0;
   for (const Sphere& s : spheres_) largest = std::max(largest, s.r);
-  const CellGrid grid(spheres_, 2 * largest + skin);
+  const CellGrid grid = cells_of(spheres_, 2 * largest + skin);
   const auto count = static_cast<std::int64_t>(blocks());
   std::vector<std::vector<std::int32_t>> found(blocks());
   first_.assign(spheres_.size() + 1, 0);
@@ -114,7 +79,7 @@ void Pile::find_neighbours(double skin) {
     for (std::size_t i = begin; i < end; ++i) {
       const Sphere s = spheres_[i];
       const std::size_t before = list.size();
-      grid.around(s.x, s.y, s.z, [&](std::int32_t j) {
+      grid.around({s.x, s.y, s.z}, [&](std::int32_t j) {
         const Sphere& t = spheres_[j];
         const double dx = s.x - t.x, dy = s.y - t.y, dz = s.z - t.z;
         const double reach = s.r + t.r + skin;

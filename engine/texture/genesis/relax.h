@@ -7,11 +7,12 @@
 //
 // The minimiser is FIRE 2.0 (Guenole et al. 2020) with a mass per sphere proportional to its stiffness, so that one
 // step suits all sizes. Every sum runs over fixed blocks of spheres: the same bits for any number of threads.
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
+
+#include "engine/core/cell_grid.h"
 
 namespace dem::texture {
 
@@ -19,6 +20,9 @@ namespace dem::texture {
 struct alignas(32) Sphere {
   double x = 0, y = 0, z = 0, r = 0;
 };
+
+/// The cells of the centres; spheres whose centres are closer than `edge` lie in neighbouring ones.
+CellGrid cells_of(const std::vector<Sphere>& spheres, double edge);
 
 /// What a force evaluation tells about the whole pile.
 struct PileState {
@@ -86,36 +90,6 @@ class Pile {
   std::vector<Sums> block_sums_;
   PileState state_;
   std::int64_t steps_ = 0;
-};
-
-/// Spheres sorted into cubic cells over the bounding box of their centres.
-class CellGrid {
- public:
-  /// `edge`: the least edge of a cell; centres closer than it lie in neighbouring cells.
-  CellGrid(const std::vector<Sphere>& spheres, double edge);
-
-  /// Calls visit(j) for all spheres in the cell of (x, y, z) and the 26 around it, in a fixed order.
-  template <class Visit>
-  void around(double x, double y, double z, Visit&& visit) const {
-    const std::array<int, 3> cell = cell_of(x, y, z);
-    for (int k = std::max(cell[2] - 1, 0); k <= std::min(cell[2] + 1, count_[2] - 1); ++k)
-      for (int j = std::max(cell[1] - 1, 0); j <= std::min(cell[1] + 1, count_[1] - 1); ++j) {
-        // Cells along x are neighbours in memory: three of them are one run.
-        const std::size_t row = (static_cast<std::size_t>(k) * count_[1] + j) * count_[0];
-        const std::int32_t begin = first_[row + std::max(cell[0] - 1, 0)];
-        const std::int32_t end = first_[row + std::min(cell[0] + 1, count_[0] - 1) + 1];
-        for (std::int32_t n = begin; n < end; ++n) visit(member_[n]);
-      }
-  }
-
- private:
-  [[nodiscard]] std::array<int, 3> cell_of(double x, double y, double z) const;
-
-  std::array<double, 3> origin_{};
-  double edge_;
-  std::array<int, 3> count_{};
-  std::vector<std::int32_t> first_;
-  std::vector<std::int32_t> member_;
 };
 
 }  // namespace dem::texture

@@ -14,7 +14,7 @@
 // friction needs: heat = (F_before + F_after) / 2 . slip (Liu et al. 2017, Eqs. 22-23) is exact for the leapfrog.
 // Where the linear part is open its slip follows the shear displacement.
 // Where no bond holds the two any more and their faces have slid or turned off each other (mismatched in kinematics.h), the
-// linear part goes on as a contact of spheres (assembly.h).
+// linear part goes on as a contact of spheres (linear_contact.h).
 // Departure: the gap of the linear part counts from the installed distance, so that bonds start free of stress.
 #include "engine/texture/laws/kinematics.h"
 

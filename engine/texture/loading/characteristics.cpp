@@ -18,36 +18,6 @@ std::size_t first_above(const std::vector<HistoryRow>& h, std::size_t peak, doub
 
 }  // namespace
 
-StrainGauge::StrainGauge(const std::vector<Vec3>& position, double height, double length) : start_(position) {
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    if (std::abs(position[i][2] - height / 2) <= length / 2) inside_.push_back(static_cast<std::int32_t>(i));
-  }
-}
-
-StrainGauge::Strains StrainGauge::read(const std::vector<Row8>& poses) const {
-  std::array<double, 3> slope{};
-  const auto n = static_cast<double>(inside_.size());
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    double mean_x = 0, mean_u = 0;
-    for (const std::int32_t p : inside_) {
-      const auto i = static_cast<std::size_t>(p);
-      mean_x += start_[i][axis];
-      mean_u += poses[i].v[axis] - start_[i][axis];
-    }
-    mean_x /= n;
-    mean_u /= n;
-    double xx = 0, xu = 0;
-    for (const std::int32_t p : inside_) {
-      const auto i = static_cast<std::size_t>(p);
-      const double x = start_[i][axis] - mean_x;
-      xx += x * x;
-      xu += x * (poses[i].v[axis] - start_[i][axis] - mean_u);
-    }
-    slope[axis] = xx > 0 ? xu / xx : 0;
-  }
-  return {slope[2], 0.5 * (slope[0] + slope[1])};
-}
-
 double axial_stiffness(const std::vector<HistoryRow>& h, std::size_t row) {
   const double strain = h[row].axial_strain - h.front().axial_strain;
   constexpr double least = 5e-5;  // below, the quotient shows the start of the platens and not the rock
@@ -55,7 +25,7 @@ double axial_stiffness(const std::vector<HistoryRow>& h, std::size_t row) {
                         : std::numeric_limits<double>::quiet_NaN();
 }
 
-Characteristics characterise(const std::vector<HistoryRow>& h, double departure, bool compression,
+Characteristics characterise(const std::vector<HistoryRow>& h, double departure, bool crack_stages,
                              double confining_pressure) {
   Characteristics c;
   if (h.size() < 3) return c;
@@ -81,7 +51,7 @@ Characteristics characterise(const std::vector<HistoryRow>& h, double departure,
     }
     if (xx > 0) c.young_modulus = xy / xx;
   }
-  if (!compression) return c;
+  if (!crack_stages) return c;
   if (half > 0 && h[half].axial_strain > 0) c.poisson_ratio = -h[half].lateral_strain / h[half].axial_strain;
   if (middle > low) {
     double plateau = 0;

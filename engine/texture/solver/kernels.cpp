@@ -1,8 +1,6 @@
 #include "engine/texture/solver/kernels.h"
 
-#include <cstdlib>
-#include <cstring>
-#include <initializer_list>
+#include "engine/core/instruction_set.h"
 
 namespace dem::texture {
 namespace sse2 {
@@ -18,26 +16,24 @@ namespace wide {  // the eight-lane source on the baseline instruction set: for 
 extern const Kernels table;
 }
 
-const Kernels* kernels(const char* name) {
-  const auto is = [name](const Kernels& set) { return std::strcmp(name, set.name) == 0; };
-  if (is(sse2::table)) return &sse2::table;
-  if (is(wide::table)) return &wide::table;
-  if (is(avx2::table) && __builtin_cpu_supports("avx2")) return &avx2::table;
-  if (is(avx512::table) && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512vl")) {
-    return &avx512::table;
-  }
-  return nullptr;
-}
-
-const Kernels& kernels() {
-  if (const char* wanted = std::getenv("DEM_SIMD")) {
-    if (const Kernels* set = kernels(wanted)) return *set;
-  }
-  for (const char* name : {"avx512", "avx2"}) {
-    if (const Kernels* set = kernels(name)) return *set;
+const Kernels& kernels(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::avx512:
+      return avx512::table;
+    case InstructionSet::avx2:
+      return avx2::table;
+    case InstructionSet::sse2:
+      break;
   }
   return sse2::table;
+}
+
+const Kernels& kernels() { return kernels(widest_set()); }
+
+const Kernels* kernels(std::string_view name) {
+  if (name == wide::table.name) return &wide::table;
+  const auto set = set_of(name);
+  return set && processor_has(*set) ? &kernels(*set) : nullptr;
 }
 
 }  // namespace dem::texture

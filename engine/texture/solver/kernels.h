@@ -1,7 +1,12 @@
 #pragma once
-// The hot loops over bonds and particles, built for several instruction sets from one source (kernels.inc) and chosen at run time.
+// The hot loops over bonds and particles, built for several instruction sets from one source (kernels.inc).
 // All of them give the same bits: element-wise operations only, forces added in the order of the bonds.
 #include <cstdint>
+#include <string_view>
+
+namespace dem {
+enum class InstructionSet;  // instruction_set.h has inline functions, which sources with -mavx512f must not build
+}
 
 namespace dem::texture {
 
@@ -97,9 +102,10 @@ struct Kernels {
   void (*broken_joints)(PartlyBrokenJoint* joints, const std::int32_t* list, std::int32_t count, BondLoop&);
 };
 
-/// The best set for this processor, or the one named in the environment variable DEM_SIMD (for tests and benchmarks).
+const Kernels& kernels(InstructionSet set);
+/// The widest is the fastest at every size that was measured (packs have eight lanes with any of them).
 const Kernels& kernels();
-/// One of the sets by name; nullptr when unknown or not possible here.
-const Kernels* kernels(const char* name);
+/// By name, "wide" included: eight lanes in SSE2. nullptr when unknown or not possible here.
+const Kernels* kernels(std::string_view name);
 
 }  // namespace dem::texture

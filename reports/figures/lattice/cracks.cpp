@@ -5,9 +5,10 @@
 #include <array>
 #include <cmath>
 
+#include "engine/analysis/fits.h"
 #include "reports/figures/lattice/parts.h"
 #include "reports/figures/table.h"
-#include "reports/page/text.h"
+#include "reports/text.h"
 
 namespace reports::lattice {
 namespace {
@@ -164,18 +165,15 @@ Front front_of(const dem::Record& r) {
     f.reach.x.push_back(t);
     f.reach.y.push_back(1e3 * far);
   }
-  double sx = 0, sy = 0, sxx = 0, sxy = 0;
-  int n = 0;
+  std::vector<double> time, way;  // µs, mm
   for (std::size_t i = 0; i < f.reach.x.size(); ++i) {
     const bool rises = i == 0 || f.reach.y[i] > f.reach.y[i - 1];
     if (!rises || f.reach.y[i] < 100 * far || f.reach.y[i] > 900 * far) continue;
-    sx += f.reach.x[i];
-    sy += f.reach.y[i];
-    sxx += f.reach.x[i] * f.reach.x[i];
-    sxy += f.reach.x[i] * f.reach.y[i];
-    ++n;
+    time.push_back(f.reach.x[i]);
+    way.push_back(f.reach.y[i]);
   }
-  if (n > 2) f.speed = 1e3 * (n * sxy - sx * sy) / (n * sxx - sx * sx);
+  const auto line = analysis::fit_line(time, way);
+  if (line && line->points > 2) f.speed = 1e3 * line->slope.value;
   return f;
 }
 

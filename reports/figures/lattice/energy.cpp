@@ -6,7 +6,7 @@
 
 #include "reports/figures/lattice/parts.h"
 #include "reports/figures/table.h"
-#include "reports/page/text.h"
+#include "reports/text.h"
 
 namespace reports::lattice {
 namespace {

@@ -7,7 +7,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "reports/page/text.h"
+#include "reports/text.h"
 
 namespace reports::lattice {
 namespace {

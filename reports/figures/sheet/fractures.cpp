@@ -9,7 +9,7 @@
 
 #include "reports/figures/sheet/parts.h"
 #include "reports/figures/table.h"
-#include "reports/page/text.h"
+#include "reports/text.h"
 
 namespace reports::sheet {
 namespace {

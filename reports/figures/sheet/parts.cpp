@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/page/text.h"
+#include "reports/text.h"
 
 namespace reports::sheet {
 namespace {

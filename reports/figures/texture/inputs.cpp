@@ -11,7 +11,7 @@
 
 #include "reports/figures/table.h"
 #include "reports/figures/texture/parts.h"
-#include "reports/page/text.h"
+#include "reports/text.h"
 
 namespace reports::texture {
 namespace {

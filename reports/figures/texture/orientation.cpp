@@ -8,7 +8,7 @@
 #include "engine/analysis/orientation.h"
 #include "reports/figures/table.h"
 #include "reports/figures/texture/parts.h"
-#include "reports/page/text.h"
+#include "reports/text.h"
 
 namespace reports::texture {
 namespace {

@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "reports/page/text.h"
+#include "reports/text.h"
 
 namespace reports::texture {
 namespace {
@@ -105,23 +105,6 @@ std::vector<SeriesCase> swept(const StudyResult& study, std::string_view test) {
 const dem::Record* first_specimen(const StudyResult& study) {
   const auto cases = swept(study, test_genesis);
   return cases.empty() ? nullptr : cases.front().record;
-}
-
-StudyResult of_mineral(const StudyResult& study, std::string_view mineral) {
-  StudyResult chosen = study;
-  std::erase_if(chosen.cases, [&](const CaseResult& one) {
-    const dem::ParameterValue* value = dem::find_value(one.parameters, parameter::mineral.id);
-    const auto* name = value ? std::get_if<std::string>(value) : nullptr;
-    return !one.record || (name ? std::string_view(*name) : std::string_view()) != mineral;
-  });
-  return chosen;
-}
-
-analysis::Envelopes envelopes_of(const StudyResult& study, std::string_view mineral) {
-  const auto cases = of_mineral(study, mineral).cases;
-  return analysis::envelopes_of(
-      analysis::series_of(cases, test_compression, parameter::confining_pressure),
-      {quantity::compressive_strength, quantity::crack_damage, quantity::initiation_readings});
 }
 
 const std::array<CrackClass, 4>& crack_classes() {

@@ -5,18 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/analysis/envelopes.h"
-#include "engine/texture/quantities.h"
 #include "reports/figures/parts.h"
+#include "reports/granite.h"
 
 namespace reports::texture {
-
-namespace parameter = dem::texture::parameter;
-namespace quantity = dem::texture::quantity;
-
-inline constexpr std::string_view test_compression = "compression";
-inline constexpr std::string_view test_tension = "direct_tension";
-inline constexpr std::string_view test_genesis = "genesis";
 
 /// The parameter that the scenario sweeps: the one of aspect ratio, dip and confining pressure with most values.
 const dem::Parameter& swept_axis(const StudyResult& study);
@@ -24,11 +16,6 @@ const dem::Parameter& swept_axis(const StudyResult& study);
 std::vector<SeriesCase> swept(const StudyResult& study, std::string_view test);
 /// The first specimen of a scenario that makes them without loading; nullptr when there is none.
 const dem::Record* first_specimen(const StudyResult& study);
-/// The cases of one mineral alone, by its name, or of the rock ("").
-StudyResult of_mineral(const StudyResult& study, std::string_view mineral);
-/// Of the compression tests of one mineral, or of the rock (""), that agree in all but confining pressure and seed.
-analysis::Envelopes envelopes_of(const StudyResult& study, std::string_view mineral = "");
-
 /// The four classes of cracks, in the order of every legend. Their colours stay apart for colour-blind readers (hues of
 /// Okabe and Ito 2008) and in grey print (luminance 0.47, 0.00, 0.28, 0.62).
 struct CrackClass {

@@ -1,4 +1,4 @@
-#include "reports/page/text.h"
+#include "reports/text.h"
 
 #include <fmt/format.h>
 
@@ -85,6 +85,23 @@ std::string words(std::string_view id) {
 std::string parameter_text(const std::variant<double, std::string>& value) {
   if (const auto* text = std::get_if<std::string>(&value)) return words(*text);
   return fmt::format("{:.6g}", std::get<double>(value));
+}
+
+std::string axis_title(const dem::Parameter& parameter) {
+  return std::string(parameter.name) + (parameter.unit.empty() ? "" : " (" + std::string(parameter.unit) + ")");
+}
+
+std::string axis_title(const dem::Quantity& quantity) {
+  const std::string_view unit = quantity.shown_unit();
+  return std::string(quantity.name) + (unit.empty() ? "" : " (" + std::string(unit) + ")");
+}
+
+std::string parameter_words(const dem::Parameter& parameter, const dem::ParameterValue& value) {
+  const std::string text = parameter_text(value);
+  if (text.empty()) return {};
+  const std::string unit(parameter.unit);
+  return (parameter.symbol.empty() ? "" : std::string(parameter.symbol) + " ") + text +
+         (unit.empty() || unit == "°" ? unit : " " + unit);
 }
 
 std::pair<double, std::string> energy_unit(double largest) {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/record.h"
+#include "engine/core/quantity.h"
 
 namespace reports {
 
@@ -32,6 +32,12 @@ std::string words(std::string_view id);
 
 /// A parameter of a record as text: numbers short, words as they are.
 std::string parameter_text(const std::variant<double, std::string>& value);
+
+/// "Confining pressure σ₃ (MPa)", "Young’s modulus E (GPa)": titles of axes and heads of columns.
+std::string axis_title(const dem::Parameter& parameter);
+std::string axis_title(const dem::Quantity& quantity);
+/// "AR 2", "dip 45°", "σ₃ 10 MPa", "quartz"; "" where there is nothing to say.
+std::string parameter_words(const dem::Parameter& parameter, const dem::ParameterValue& value);
 
 /// An energy with the prefix that suits `largest`: {1e3, "mJ"}: factor from joules, unit.
 std::pair<double, std::string> energy_unit(double largest);

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "render/chart/chart.h"
+#include "render/style.h"
 
 namespace render {
 

@@ -1,4 +1,4 @@
-#include "render/chart/dashes.h"
+#include "render/dashes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,77 @@
+#include "engine/texture/loading/direct_tension.h"
+
+namespace dem::texture {
+namespace {
+
+constexpr std::string_view name = "direct_tension";
+
+std::vector<Key> keys() {
+  return {
+      {.path = "direct_tension.rate",
+       .low = 1e-10,
+       .high = 1e-4,
+       .standard = "1e-8",
+       .affects = Affects::test,
+       .when = {"direct_tension"},
+       .help = "grip strain a step"},
+      {.path = "direct_tension.ramp_strain",
+       .low = 1e-9,
+       .high = 1e-2,
+       .standard = "2e-6",
+       .affects = Affects::test,
+       .when = {"direct_tension"},
+       .help = "strain over which the grips reach their speed"},
+      {.path = "direct_tension.stop",
+       .low = 0.05,
+       .high = 0.999,
+       .standard = "0.5",
+       .affects = Affects::test,
+       .when = {"direct_tension"},
+       .help = "the test ends at this share of the peak, after it"},
+      {.path = "direct_tension.sample_strain",
+       .low = 1e-8,
+       .high = 1e-3,
+       .standard = "1e-6",
+       .affects = Affects::test,
+       .when = {"direct_tension"},
+       .help = "strain between samples"},
+      {.path = "direct_tension.grip",
+       .low = 0.01,
+       .high = 0.3,
+       .standard = "0.05",
+       .affects = Affects::test,
+       .when = {"direct_tension"},
+       .help = "thickness of each gripped disc over the height"},
+  };
+}
+
+Test read(const Scenario& scenario) {
+  Test test = direct_tension();
+  read_pace(scenario, "direct_tension.", test);
+  test.grip = scenario.real("direct_tension.grip");
+  // Where compressions are followed after their end, tension is followed as far.
+  test.ending.follow = scenario.real("compression.follow");
+  return test;
+}
+
+}  // namespace
+
+TestEntry direct_tension_entry() { return {name, &keys, &read}; }
+
+Test direct_tension() {
+  return {
+      .name = name,
+      .words = "direct tension",
+      .hold = Hold::grips,
+      .grip = 0.05,
+      .sense = 1,
+      .rate = 1e-8,
+      .ramp_strain = 2e-6,
+      .sample_strain = 1e-6,
+      .ending = {.stop = 0.5},
+      .typical_strain = 2.5e-4,
+      .strength = quantity::tensile_strength,
+  };
+}
+
+}  // namespace dem::texture

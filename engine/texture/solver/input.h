@@ -1,0 +1,38 @@
+#pragma once
+// What an assembly is made of.
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/texture/laws/properties.h"
+
+namespace dem::texture {
+
+using Vec3 = std::array<double, 3>;
+
+/// One contact as installed: free of stress at the present distance.
+struct BondSpec {
+  std::int32_t first = 0, second = 0;
+  bool boundary = false;    ///< true: parallel bond (between grains), false: flat joint (inside)
+  bool frictional = false;  ///< true: no bond at all, only the linear part
+  ContactGroup group;
+};
+
+struct AssemblyInput {
+  std::vector<Vec3> position;         ///< m, ordered in slabs along z (order_in_slabs)
+  std::vector<double> radius;         ///< m
+  std::vector<double> density;        ///< kg/m^3
+  std::vector<std::int32_t> mineral;  ///< index into `fresh` and wall_modulus
+  std::vector<BondSpec> bonds;
+  std::vector<std::vector<ContactGroup>> fresh;  ///< [mineral][mineral]: linear parts of contacts that form later
+  std::vector<double> wall_modulus;              ///< E_c of each mineral, Pa, for contacts with walls
+  std::vector<std::int8_t> grip;                 ///< 0 free, 1 held by the lower grip, 2 by the upper; empty: none
+  bool platens = false;                          ///< frictionless rigid planes at z_low and z_high
+  double z_low = 0, z_high = 0;                  ///< m; lower and upper platen (or grip face)
+  double jacket_radius = 0;       ///< m; frictionless cylindrical wall round the z axis, for confine(); 0: none
+  double damping = 0.7;           ///< alpha
+  double time_step_factor = 0.8;  ///< of the critical step from the stiffness sums
+  int slabs = 0;                  ///< 0: chosen
+};
+
+}  // namespace dem::texture

@@ -1,0 +1,237 @@
+#include "engine/texture/solver/walls.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace dem::texture {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// One step towards a target.
+void approach(double& value, double target, double& gain) {
+  const double next = value + gain;
+  const bool reached = (gain >= 0) == (next >= target);
+  value = reached ? target : next;
+  if (reached) gain = 0;
+}
+
+double gain_over(double from, double to, std::int64_t ramp) {
+  return (to - from) / static_cast<double>(std::max<std::int64_t>(ramp, 1));
+}
+
+// Where hardly anything bears yet, a share of all first contacts stands in for the stiffness.
+double newton(double excess, double bearing, double all) { return excess / std::max(bearing, 0.25 * all); }
+
+}  // namespace
+
+Walls::Walls(const AssemblyInput& input, const Slabs& slabs)
+    : platens_(input.platens),
+      modulus_(input.wall_modulus),
+      platen_contacts_(slabs.count()),
+      jacket_contacts_(slabs.count()),
+      sums_(slabs.count()) {
+  ends_[0].z = ends_[0].z_before = input.z_low;
+  ends_[1].z = ends_[1].z_before = input.z_high;
+  jacket_.radius = jacket_.radius_before = input.jacket_radius;
+  if (!input.grip.empty()) {
+    held_.resize(slabs.count());
+    for (std::size_t i = 0; i < input.grip.size(); ++i) {
+      if (input.grip[i] > 0) held_[slabs.of_particle(i)].push_back({static_cast<std::int32_t>(i), input.grip[i] - 1});
+    }
+  }
+  for (std::size_t i = 0; any() && i < input.position.size(); ++i) {
+    meet({i, slabs.of_particle(i), input.position[i], input.radius[i], static_cast<std::size_t>(input.mineral[i])}, 0,
+         true);
+  }
+}
+
+void Walls::drive(double lower, double upper, std::int64_t ramp) {
+  const std::array<double, 2> target = {lower, upper};
+  for (std::size_t w = 0; w < 2; ++w) {
+    ends_[w].servo = 0;
+    ends_[w].target = target[w];
+    ends_[w].gain = gain_over(ends_[w].speed, target[w], ramp);
+  }
+}
+
+void Walls::confine(double pressure, std::int64_t ramp) {
+  jacket_.target = pressure;
+  jacket_.gain = gain_over(jacket_.pressure, pressure, ramp);
+  for (End& end : ends_) end.servo = 1;
+}
+
+void Walls::press(std::size_t slab, Particles& particles) {
+  if (!platens_) return;
+  press_platens(slab, particles);
+  press_jacket(slab, particles);
+}
+
+void Walls::press_platens(std::size_t slab, Particles& particles) {
+  SlabSums& sums = sums_[slab];
+  sums.force_before = sums.force;
+  sums.force = {};
+  sums.stiffness = {};
+  double elastic = 0;
+  for (const PlatenContact& contact : platen_contacts_[slab]) {
+    const auto p = static_cast<std::size_t>(contact.particle);
+    const auto w = static_cast<std::size_t>(contact.upper);
+    const Row8& pose = particles.pose[p];
+    const WallResult result = advance(contact.law, platen_gap(ends_[w].z, contact.upper != 0, pose.v[2], pose.v[3]));
+    if (result.stiffness == 0) continue;
+    const double f = contact.upper ? -result.push : result.push;  // on the particle, along z
+    particles.force[p].v[2] += f;
+    sums.force[w] += f;
+    sums.stiffness[w] += result.stiffness;
+    elastic += result.energy;
+  }
+  for (std::size_t w = 0; w < 2; ++w) {
+    sums.work += 0.5 * (sums.force[w] + sums.force_before[w]) * (ends_[w].z - ends_[w].z_before);
+  }
+  sums.elastic = elastic;
+}
+
+void Walls::press_jacket(std::size_t slab, Particles& particles) {
+  SlabSums& sums = sums_[slab];
+  sums.jacket_force_before = sums.jacket_force;
+  sums.jacket_force = sums.jacket_stiffness = 0;
+  double elastic = sums.elastic;
+  for (const JacketContact& contact : jacket_contacts_[slab]) {
+    const auto p = static_cast<std::size_t>(contact.particle);
+    const Row8& pose = particles.pose[p];
+    const double x = pose.v[0], y = pose.v[1], away = std::sqrt(x * x + y * y);
+    const WallResult result = advance(contact.law, jacket_gap(jacket_.radius, away, pose.v[3]));
+    if (result.stiffness == 0) continue;
+    particles.force[p].v[0] -= result.push * x / away;
+    particles.force[p].v[1] -= result.push * y / away;
+    sums.jacket_force += result.push;
+    sums.jacket_stiffness += result.stiffness;
+    elastic += result.energy;
+  }
+  sums.work -= 0.5 * (sums.jacket_force + sums.jacket_force_before) * (jacket_.radius - jacket_.radius_before);
+  sums.elastic = elastic;
+}
+
+void Walls::move(double step) {
+  double jacket_force = 0, jacket_stiffness = 0;
+  std::array<double, 2> force{}, stiffness{};
+  for (const SlabSums& sums : sums_) {
+    jacket_force += sums.jacket_force;
+    jacket_stiffness += sums.jacket_stiffness;
+    for (std::size_t w = 0; w < 2; ++w) {
+      force[w] += std::abs(sums.force[w]);
+      stiffness[w] += sums.stiffness[w];
+    }
+  }
+  approach(jacket_.pressure, jacket_.target, jacket_.gain);
+  const double radius = jacket_.radius, height = ends_[1].z - ends_[0].z;
+  for (std::size_t w = 0; w < 2; ++w) {
+    End& end = ends_[w];
+    end.drift_before = end.z - end.z_before;
+    end.z_before = end.z;
+    if (end.servo != 0) {
+      const double excess = force[w] - jacket_.pressure * pi * radius * radius;
+      end.z += (w == 0 ? -1 : 1) * newton(excess, stiffness[w], end.stiffness);
+      continue;
+    }
+    approach(end.speed, end.target, end.gain);
+    end.z += end.speed * step;
+  }
+  jacket_.radius_before = radius;
+  if (radius > 0) {
+    // What the particles alone did to the force in the last step, they will do again in the next.
+    const double moved = jacket_force - jacket_.force_before + jacket_stiffness * jacket_.drift;
+    const double excess = jacket_force + moved - jacket_.pressure * 2 * pi * radius * height;
+    jacket_.drift = newton(excess, jacket_stiffness, jacket_.stiffness);
+    jacket_.force_before = jacket_force;
+    jacket_.radius += jacket_.drift;
+  }
+}
+
+double Walls::hold(std::size_t slab, Particles& particles) {
+  if (held_.empty()) return 0;
+  SlabSums& sums = sums_[slab];
+  sums.force_before = sums.force;
+  sums.force = {};
+  double kinetic = 0;
+  for (const Held& held : held_[slab]) {
+    const auto i = static_cast<std::size_t>(held.particle);
+    const auto w = static_cast<std::size_t>(held.upper);
+    const double speed = ends_[w].speed;
+    sums.force[w] -= particles.force[i].v[2];
+    particles.force[i] = Row8{};
+    particles.velocity[i] = Row8{{0, 0, speed, 0, 0, 0, 0, 0}};
+    kinetic += particles.inertia[i].mass * speed * speed;
+  }
+  for (std::size_t w = 0; w < 2; ++w) {
+    sums.work += 0.5 * (sums.force[w] + sums.force_before[w]) * ends_[w].drift_before;
+  }
+  return kinetic;
+}
+
+void Walls::meet(const Particles& particles, const Slabs& slabs, double skin) {
+  for (std::size_t i = 0; any() && i < particles.size(); ++i) {
+    const Row8& p = particles.pose[i];
+    meet({i, slabs.of_particle(i), {p.v[0], p.v[1], p.v[2]}, p.v[3], static_cast<std::size_t>(particles.mineral[i])},
+         skin, false);
+  }
+}
+
+void Walls::meet(const Near& sphere, double reach, bool first) {
+  const auto is_known = [&](const auto& contacts, const auto& same) {
+    return !first && std::any_of(contacts.begin(), contacts.end(), same);
+  };
+  const double k = wall_stiffness(modulus_[sphere.mineral], sphere.radius);
+  for (std::int32_t upper = 0; platens_ && upper < 2; ++upper) {
+    End& end = ends_[static_cast<std::size_t>(upper)];
+    std::vector<PlatenContact>& contacts = platen_contacts_[sphere.slab];
+    const auto particle = static_cast<std::int32_t>(sphere.particle);
+    const auto same = [&](const PlatenContact& c) { return c.particle == particle && c.upper == upper; };
+    const double gap = platen_gap(end.z, upper != 0, sphere.x[2], sphere.radius);
+    if (gap > reach || is_known(contacts, same)) continue;
+    contacts.push_back({particle, upper, {first ? gap : 0, k}});
+    if (first) end.stiffness += k;
+  }
+  if (jacket_.radius > 0) {
+    std::vector<JacketContact>& contacts = jacket_contacts_[sphere.slab];
+    const auto particle = static_cast<std::int32_t>(sphere.particle);
+    const auto same = [&](const JacketContact& c) { return c.particle == particle; };
+    const double gap = jacket_gap(jacket_.radius, std::hypot(sphere.x[0], sphere.x[1]), sphere.radius);
+    if (gap > reach || is_known(contacts, same)) return;
+    contacts.push_back({particle, {first ? gap : 0, k}});
+    if (first) jacket_.stiffness += k;
+  }
+}
+
+void Walls::add_stiffness(std::vector<std::array<double, 6>>& diagonal) const {
+  for (const auto& slab : platen_contacts_) {
+    for (const PlatenContact& contact : slab) {
+      diagonal[static_cast<std::size_t>(contact.particle)][2] += contact.law.stiffness;
+    }
+  }
+  for (const auto& slab : jacket_contacts_) {
+    for (const JacketContact& contact : slab) {
+      for (const std::size_t axis : {0, 1}) {
+        diagonal[static_cast<std::size_t>(contact.particle)][axis] += contact.law.stiffness;
+      }
+    }
+  }
+}
+
+void Walls::report(Sample& sample) const {
+  for (std::size_t w = 0; w < 2; ++w) sample.place[w] = ends_[w].z_before;
+  sample.jacket_radius = jacket_.radius_before;
+  double jacket_force = 0;
+  for (const SlabSums& sums : sums_) {
+    jacket_force += sums.jacket_force;
+    for (std::size_t w = 0; w < 2; ++w) sample.force[w] += sums.force[w];
+    sample.ledger.work += sums.work;
+    sample.ledger.elastic += sums.elastic;
+  }
+  if (sample.jacket_radius > 0) {
+    sample.confining_pressure = jacket_force / (2 * pi * sample.jacket_radius * (sample.place[1] - sample.place[0]));
+  }
+}
+
+}  // namespace dem::texture

@@ -1,0 +1,117 @@
+#pragma once
+// What holds a specimen from outside: platens or grips at its ends, a jacket round its sides.
+//
+// Platens are frictionless planes, the jacket a frictionless cylinder round the z axis (laws/wall_contact.h). Walls
+// that carry a pressure have no mass: at each step each of them goes to where its contacts carry the pressure, by one
+// Newton step from the forces of the step before; the jacket foresees that particles go on pushing as they did.
+// Particles in a grip follow it without turning.
+//
+// The work of a wall is the mean of its force before and after a drift, times the drift.
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/texture/laws/wall_contact.h"
+#include "engine/texture/solver/account.h"
+#include "engine/texture/solver/particles.h"
+#include "engine/texture/solver/slabs.h"
+
+namespace dem::texture {
+
+class Walls {
+ public:
+  Walls(const AssemblyInput& input, const Slabs& slabs);
+
+  /// Speeds of the lower and upper platen or grip along z (m/s), reached linearly over `ramp` steps from now.
+  void drive(double lower, double upper, std::int64_t ramp);
+  /// Pressure (Pa) on the jacket, and on both platens until they are driven, reached linearly over `ramp` steps from
+  /// now.
+  void confine(double pressure, std::int64_t ramp);
+
+  // A step, slab by slab but for move(). Of one slab: by one thread at a time.
+  /// Adds what platens and jacket do to the particles of a slab.
+  void press(std::size_t slab, Particles& particles);
+  /// Moves all walls on by a step; after press() of all slabs, before hold() of any.
+  void move(double step);
+  /// Takes the forces on the held particles of a slab for those of their grips, and gives them the speed of it. Returns
+  /// twice their kinetic energy, J: it is not part of the account.
+  double hold(std::size_t slab, Particles& particles);
+
+  /// Particles that have come nearer to a wall than `skin` (m) get a contact with it.
+  void meet(const Particles& particles, const Slabs& slabs, double skin);
+
+  /// Adds the stiffness (N/m) of the contacts to the diagonals of their particles (three translations, three
+  /// rotations).
+  void add_stiffness(std::vector<std::array<double, 6>>& diagonal) const;
+  /// Forces and places of the walls, the confining pressure, work and stored energy of the contacts, at the last step.
+  void report(Sample& sample) const;
+
+  template <class Archive>
+  void archive(Archive& a) {
+    a(ends_, jacket_, platen_contacts_, jacket_contacts_, sums_);
+  }
+
+ private:
+  /// A platen or a grip.
+  struct End {
+    double z = 0, z_before = 0;              ///< m
+    double drift_before = 0;                 ///< m, of the step before
+    double speed = 0, target = 0, gain = 0;  ///< m/s, m/s, m/s a step
+    double stiffness = 0;                    ///< of all its first contacts, N/m
+    std::int64_t servo = 0;                  ///< 1: moved by the confining pressure, not by its speed
+  };
+  struct Jacket {
+    double radius = 0, radius_before = 0;       ///< m
+    double pressure = 0, target = 0, gain = 0;  ///< Pa, Pa, Pa a step
+    double stiffness = 0;                       ///< of all its first contacts, N/m
+    double force_before = 0, drift = 0;         ///< N, m: of the step before
+  };
+  struct PlatenContact {
+    std::int32_t particle = 0;
+    std::int32_t upper = 0;
+    WallContact law;
+  };
+  struct JacketContact {
+    std::int32_t particle = 0;
+    WallContact law;
+  };
+  struct Held {
+    std::int32_t particle = 0;
+    std::int32_t upper = 0;
+  };
+  /// Of a slab; added up in the order of slabs.
+  struct SlabSums {
+    std::array<double, 2> force{}, force_before{};  ///< of the platens or grips on the specimen, along z, N
+    std::array<double, 2> stiffness{};              ///< of the platen contacts that bear, N/m
+    double jacket_force = 0, jacket_force_before = 0, jacket_stiffness = 0;  ///< sums over radial forces
+    double work = 0, elastic = 0;                                            ///< J; work since the beginning
+  };
+
+  /// A sphere of a slab, as a wall meets it.
+  struct Near {
+    std::size_t particle, slab;
+    Vec3 x;         ///< m
+    double radius;  ///< m
+    std::size_t mineral;
+  };
+  /// Gives it contacts with the walls that it is nearer to than `reach` and has none with yet. The first ones, at
+  /// installation, start free of stress.
+  void meet(const Near& sphere, double reach, bool first);
+  [[nodiscard]] bool any() const { return platens_ || jacket_.radius > 0; }
+  void press_platens(std::size_t slab, Particles& particles);
+  void press_jacket(std::size_t slab, Particles& particles);
+
+  // fixed after installation
+  bool platens_ = false;
+  std::vector<double> modulus_;          ///< E_c of each mineral, Pa
+  std::vector<std::vector<Held>> held_;  ///< by slab; empty without grips
+
+  // state
+  std::array<End, 2> ends_{};
+  Jacket jacket_;
+  std::vector<std::vector<PlatenContact>> platen_contacts_;  ///< by slab
+  std::vector<std::vector<JacketContact>> jacket_contacts_;  ///< by slab
+  std::vector<SlabSums> sums_;
+};
+
+}  // namespace dem::texture

@@ -1,0 +1,23 @@
+#pragma once
+// What figures and published numbers of the grain texture model both read: its tests, the cases of one mineral, envelopes.
+#include <string_view>
+
+#include "engine/analysis/envelopes.h"
+#include "engine/texture/quantities.h"
+#include "reports/figure.h"
+
+namespace reports::texture {
+
+namespace parameter = dem::texture::parameter;
+namespace quantity = dem::texture::quantity;
+
+inline constexpr std::string_view test_compression = "compression";
+inline constexpr std::string_view test_tension = "direct_tension";
+inline constexpr std::string_view test_genesis = "genesis";
+
+/// The cases of one mineral alone, by its name, or of the rock ("").
+StudyResult of_mineral(const StudyResult& study, std::string_view mineral);
+/// Of the compression tests of one mineral, or of the rock (""), that agree in all but confining pressure and seed.
+analysis::Envelopes envelopes_of(const StudyResult& study, std::string_view mineral = "");
+
+}  // namespace reports::texture
