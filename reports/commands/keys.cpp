@@ -1,4 +1,4 @@
-// dem-report keys: the reference of the scenario keys. docs/scenario-keys.md is what `keys --markdown` prints.
+// dem-report keys: the reference of the scenario keys. docs/use/keys.md is what `keys --markdown` prints.
 #include <fmt/format.h>
 
 #include <iostream>
@@ -40,18 +40,17 @@ int perform(const Arguments& arguments) {
 Command verbs::keys() {
   std::vector<std::string> models;
   for (const dem::Model& model : dem::models()) models.emplace_back(model.name);
-  return {
-      .name = "keys",
-      .summary = "list the scenario keys with unit, range and default",
-      .positionals = {{.name = "MODEL",
-                       .help = "only the keys of this model, and those of every scenario",
-                       .least = 0,
-                       .choices = models}},
-      .options = {{.name = "markdown", .help = "as a page in Markdown: docs/scenario-keys.md is made with it"}},
-      .examples = {{"dem-report keys grain_texture", "what a scenario of the grain texture model may say"},
-                   {"dem-report keys --markdown > docs/scenario-keys.md", "make the page of the documentation anew"}},
-      .exit_codes = usual_exit_codes(),
-      .perform = perform};
+  return {.name = "keys",
+          .summary = "list the scenario keys with unit, range and default",
+          .positionals = {{.name = "MODEL",
+                           .help = "only the keys of this model, and those of every scenario",
+                           .least = 0,
+                           .choices = models}},
+          .options = {{.name = "markdown", .help = "as a page in Markdown: docs/use/keys.md is made with it"}},
+          .examples = {{"dem-report keys grain_texture", "what a scenario of the grain texture model may say"},
+                       {"dem-report keys --markdown > docs/use/keys.md", "make the page of the documentation anew"}},
+          .exit_codes = usual_exit_codes(),
+          .perform = perform};
 }
 
 }  // namespace cli

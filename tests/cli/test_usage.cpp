@@ -36,7 +36,7 @@ TEST_CASE("the reference of the scenario keys is what the program says of them")
   const test::Scratch folder;
   const std::string page = test::run_program(folder.path(), {"keys", "--markdown"}).out;
   CHECK(has(page, "\n```text\n" + test::run_program(folder.path(), {"--explain-keys"}).out + "```\n"));
-  const std::filesystem::path kept = DEM_SOURCE_DIR "/docs/scenario-keys.md";
+  const std::filesystem::path kept = DEM_SOURCE_DIR "/docs/use/keys.md";
   if (std::filesystem::exists(kept) && dem::read_file(kept) == page) return;
   FAIL_CHECK(kept.string() << " is not what the program says; to refresh it: " DEM_PROGRAM " keys --markdown > "
                            << kept.string());
