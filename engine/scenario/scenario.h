@@ -48,7 +48,7 @@ struct Key {
   std::vector<std::string> choices = {};  ///< for text(s): the allowed words; empty: any
   std::string standard = {};  ///< the default as TOML text ("\"0.35 mm\"", "1.66", "[1]"); "" : the key is required
   Affects affects = Affects::undeclared;
-  std::vector<std::string> when = {};  ///< the tests (or solvers) that it matters to; empty: all
+  std::vector<std::string> when = {};  ///< the tests (or solvers, or "loaded") that it matters to; empty: all
   std::string help = {};               ///< one line, with the symbol and source where there is one
 };
 

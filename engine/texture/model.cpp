@@ -60,7 +60,9 @@ CaseSpec case_of(const Scenario& base, const std::string& test, const Variant& v
                            of(parameter::mineral, v.only_mineral),
                            of(parameter::confining_pressure, pressure),
                            of(parameter::seed, static_cast<double>(v.seed))};
-  return make_case(model(), std::move(id), std::move(scenario), std::move(parameters), {test});
+  std::vector<std::string> kinds = {test};
+  if (test_entry(test).read(scenario).loads()) kinds.emplace_back("loaded");  // Key::when of the rock and the solver
+  return make_case(model(), std::move(id), std::move(scenario), std::move(parameters), kinds);
 }
 
 std::vector<double> swept(const Scenario& s, const std::string& sweep, const std::string& single) {
