@@ -1,5 +1,5 @@
-#include "render/compare.h"
 #include "render/png.h"
+#include "render/compare.h"
 
 #include <png.h>
 

@@ -8,8 +8,8 @@
 
 #include "engine/texture/loading/gauge.h"
 #include "engine/texture/loading/history.h"
-#include "engine/texture/loading/test.h"
 #include "engine/texture/loading/setup.h"
+#include "engine/texture/loading/test.h"
 #include "engine/texture/solver/assembly.h"
 
 namespace dem::texture {
