@@ -12,6 +12,12 @@ constexpr Quantity measured(Quantity quantity, std::string_view tests, std::stri
   return quantity;
 }
 
+/// With its relative standard deviation between seeds.
+constexpr Quantity scattered(Quantity quantity, double deviation) {
+  quantity.scatter = deviation;
+  return quantity;
+}
+
 inline constexpr Quantity young_modulus{.id = "young_modulus", .name = "Young’s modulus", .symbol = "E", .unit = "GPa"};
 inline constexpr Quantity poisson_ratio{.id = "poisson_ratio", .name = "Poisson’s ratio", .symbol = "ν"};
 inline constexpr Quantity compressive_strength{

@@ -17,7 +17,7 @@ std::string_view kind_word(const dem::Quantity& quantity) {
 
 std::string unit_text(const dem::Quantity& quantity) {
   const std::string stored(quantity.unit.empty() ? "–" : quantity.unit);
-  return quantity.shown.empty() ? stored : fmt::format("{} (read in {})", stored, quantity.shown);
+  return quantity.shown.empty() ? stored : fmt::format("{} (shown in {})", stored, quantity.shown);
 }
 
 std::string given_by(const dem::Quantity& quantity) {
@@ -38,9 +38,9 @@ std::string where_from(const dem::Parameter& parameter) {
 std::string plain(const dem::Model& model) {
   std::string text = fmt::format("Results of model = \"{}\"\n", model.name);
   for (const dem::Quantity& q : model.quantities()) {
-    text += fmt::format("  {}: {}{}, in {}; {} of {}\n      {}\n", q.id, q.name,
-                        q.symbol.empty() ? "" : fmt::format(", {}", q.symbol), unit_text(q), kind_word(q), given_by(q),
-                        meaning(q));
+    text += fmt::format(
+        "  {}: {}{}, {}; {} of {}\n      {}\n", q.id, q.name, q.symbol.empty() ? "" : fmt::format(", {}", q.symbol),
+        q.unit.empty() && q.shown.empty() ? "no unit" : "in " + unit_text(q), kind_word(q), given_by(q), meaning(q));
   }
   text += fmt::format("\nParameters of its cases\n");
   for (const dem::Parameter& p : model.parameters()) {

@@ -74,6 +74,12 @@ std::string trend_words(const std::vector<SeriesCase>& cases, const ValueOf& val
   return fmt::format("{} by {}{} ({})", slope < 0 ? "falls" : "rises", number(std::abs(slope), 2), of, interval);
 }
 
+std::string trend_words(const std::vector<SeriesCase>& cases, const dem::Quantity& quantity,
+                        const dem::Parameter& axis) {
+  const std::string_view unit = quantity.shown_unit();
+  return trend_words(cases, shown(quantity), unit == "%" ? "points" : unit, axis);
+}
+
 std::string estimate_text(const analysis::Estimate& estimate, int digits, bool in_table) {
   const std::string value = number(estimate.value, digits);
   if (!estimate.has_interval()) return in_table ? value : value + " (no interval from so few points)";
@@ -153,6 +159,10 @@ std::string by_case(const std::vector<SeriesCase>& cases, const ValueOf& value, 
     }
   }
   return items.empty() ? "not measured" : listed(items) + (unit.empty() ? "" : " " + std::string(unit));
+}
+
+std::string by_case(const std::vector<SeriesCase>& cases, const dem::Quantity& quantity, int digits) {
+  return by_case(cases, shown(quantity), digits, quantity.shown_unit());
 }
 
 void add_curves(render::Chart& chart, const std::vector<SeriesCase>& cases, const CurveOf& of, double up_to) {

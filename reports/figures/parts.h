@@ -39,6 +39,9 @@ std::optional<analysis::LineFit> trend_of(const std::vector<SeriesCase>& cases, 
 /// "rises by 1.2 MPa per degree of dip (95 % interval 0.4 to 2, p = 0.01)", or that scatter hides it; "" with one case.
 std::string trend_words(const std::vector<SeriesCase>& cases, const ValueOf& value, std::string_view unit,
                         const dem::Parameter& axis);
+/// Of a result, in its own unit: differences of a share are points.
+std::string trend_words(const std::vector<SeriesCase>& cases, const dem::Quantity& quantity,
+                        const dem::Parameter& axis);
 /// "29.1 (95 % interval 27 to 31.2)", shorter in tables: "29.1 (27 to 31.2)".
 std::string estimate_text(const analysis::Estimate& estimate, int digits, bool in_table = false);
 
@@ -69,5 +72,7 @@ bool is_note(const Panel& panel);
 
 /// "206.8, 201.3 and 198.4 MPa", means of repeats, with the labels of the cases when some have no value. `digits` significant ones; 0: a count.
 std::string by_case(const std::vector<SeriesCase>& cases, const ValueOf& value, int digits, std::string_view unit);
+/// Of a result, in its own unit.
+std::string by_case(const std::vector<SeriesCase>& cases, const dem::Quantity& quantity, int digits);
 
 }  // namespace reports

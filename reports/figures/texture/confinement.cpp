@@ -136,7 +136,7 @@ render::Series points(const analysis::StrengthPoints& of, const std::string& lab
 render::Chart envelope_chart(const StudyResult& study, const analysis::Envelopes& found,
                              const std::vector<double>& tension) {
   render::Chart chart;
-  chart.x.title = "Confining pressure σ₃ (MPa)";
+  chart.x.title = axis_title(parameter::confining_pressure);
   chart.left.title = "Axial stress σ₁ (MPa)";
   chart.left.low = 0;
   double high = 10;
@@ -231,7 +231,7 @@ FigureContent confinement_curves(const StudyResult& study) {
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
   const std::string peaks = by_case(cases, peak_stress, 4, "MPa");
-  const std::string strains = by_case(cases, shown(quantity::initiation_strain), 2, "%");
+  const std::string strains = by_case(cases, quantity::initiation_strain, 2);
   render::Chart whole = against_strain(cases, {"axial_stress", "Axial stress σ₁ (MPa)", 1e-6}, 1e300);
   whole.left.low = 0;
   content.panels.push_back(
@@ -257,7 +257,7 @@ FigureContent confinement_curves(const StudyResult& study) {
   content.panels.push_back(
       {.id = "stiffness",
        .caption = "Axial stiffness (Eq. 9) at small strains, and where it leaves its plateau.",
-       .alt = "Axial stiffness; Young’s moduli of " + by_case(cases, shown(quantity::young_modulus), 3, "GPa") + ".",
+       .alt = "Axial stiffness; Young’s moduli of " + by_case(cases, quantity::young_modulus, 3) + ".",
        .content = stiffness});
   content.finding = "At " +
                     joined(
@@ -351,7 +351,7 @@ FigureContent confinement_after_peak(const StudyResult& study) {
   series.colour = peak_colour;
   render::Chart chart;
   chart.x.title = axis_title(parameter::confining_pressure);
-  chart.left.title = "Residual over peak stress";
+  chart.left.title = axis_title(quantity::residual_over_peak);
   chart.left.low = 0;
   chart.left.high = 1.1;
   series.label = "at the end";

@@ -335,7 +335,7 @@ FigureContent texture_by_seed(const StudyResult& study) {
   }
   if (swept_axis(study).id == "aspect_ratio" && cases.size() > 1) {
     render::Chart chart;
-    chart.x.title = "Aspect ratio";
+    chart.x.title = axis_title(parameter::aspect_ratio);
     chart.x.low = cases.front().value - 0.2;
     chart.x.high = cases.back().value + 0.2;
     chart.left.title = "Contacts between grains (%)";

@@ -281,13 +281,13 @@ void add_strengths(FigureContent& content, const std::vector<Strength>& found) {
 
 std::string strengths_found(const std::vector<SeriesCase>& compression, const std::vector<SeriesCase>& tension,
                             const std::vector<Strength>& found, const dem::Parameter& axis) {
-  std::string text = "UCS " + by_case(compression, shown(quantity::compressive_strength), 4, "MPa") + "; TS " +
-                     by_case(tension, shown(quantity::tensile_strength), 3, "MPa");
+  std::string text = "UCS " + by_case(compression, quantity::compressive_strength, 4) + "; TS " +
+                     by_case(tension, quantity::tensile_strength, 3);
   std::vector<std::string> ratios;
   for (const Strength& one : found) ratios.push_back(number(one.ratio, 3));
   text += ratios.empty() ? "." : "; UCS/TS " + listed(ratios) + ".";
-  const std::string ucs = trend_words(compression, shown(quantity::compressive_strength), "MPa", axis);
-  const std::string ts = trend_words(tension, shown(quantity::tensile_strength), "MPa", axis);
+  const std::string ucs = trend_words(compression, quantity::compressive_strength, axis);
+  const std::string ts = trend_words(tension, quantity::tensile_strength, axis);
   if (!ucs.empty()) text += " UCS " + ucs + ".";
   if (!ts.empty()) text += " TS " + ts + ".";
   return text;
@@ -425,8 +425,8 @@ FigureContent stress_strain(const StudyResult& study) {
   const auto compression = swept(study, test_compression);
   const auto tension = swept(study, test_tension);
   add_missing(content, study, {test_compression, test_tension});
-  const std::string ucs = by_case(compression, shown(quantity::compressive_strength), 4, "MPa");
-  const std::string ts = by_case(tension, shown(quantity::tensile_strength), 3, "MPa");
+  const std::string ucs = by_case(compression, quantity::compressive_strength, 4);
+  const std::string ts = by_case(tension, quantity::tensile_strength, 3);
   if (!compression.empty()) {
     content.panels.push_back(
         {.id = "compression",
@@ -474,8 +474,7 @@ FigureContent group_shares(const StudyResult& study) {
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
-  const std::string inter = by_case(
-      cases, [](const dem::Record& r) { return 100 * r.value_or_nan(quantity::inter_grain_share); }, 3, "%");
+  const std::string inter = by_case(cases, quantity::inter_grain_share, 3);
   if (!members_of(cases, quantity::mineral_share).empty()) {
     content.panels.push_back({.id = "minerals",
                               .caption = "Minerals, by particles.",
@@ -491,7 +490,7 @@ FigureContent group_shares(const StudyResult& study) {
         {.id = "groups", .caption = "Every contact group.", .alt = "", .content = contact_table(cases)});
   }
   content.finding = "Contacts between grains: " + inter + ".";
-  const std::string trend = trend_words(cases, shown(quantity::inter_grain_share), "points", swept_axis(study));
+  const std::string trend = trend_words(cases, quantity::inter_grain_share, swept_axis(study));
   if (!trend.empty()) content.finding += " Their share " + trend + ".";
   return content;
 }
