@@ -9,20 +9,25 @@ namespace dem::texture {
 
 namespace quantity {
 
-using dem::quantity::measured;
+using dem::quantity::measured, dem::quantity::scattered;
+
+// Scatter: of the granite at draft scale (docs/notes/texture-and-seed.md).
 
 inline constexpr std::string_view loaded = "compression direct_tension";
 
-inline constexpr Quantity young_modulus = measured(
-    dem::quantity::young_modulus, loaded,
-    "Slope of axial stress over the axial strain of the gauge, least squares between 10 and 30 % of the peak.");
+inline constexpr Quantity young_modulus = scattered(
+    measured(
+        dem::quantity::young_modulus, loaded,
+        "Slope of axial stress over the axial strain of the gauge, least squares between 10 and 30 % of the peak."),
+    0.017);
 inline constexpr Quantity poisson_ratio = measured(dem::quantity::poisson_ratio, "compression",
                                                    "Lateral over axial strain of the gauge at half the peak stress.");
 inline constexpr Quantity compressive_strength =
-    measured(dem::quantity::compressive_strength, "compression",
-             "Largest axial stress; without confining pressure the uniaxial compressive strength, UCS.");
-inline constexpr Quantity tensile_strength =
-    measured(dem::quantity::tensile_strength, "direct_tension", "Largest axial stress between the grips.");
+    scattered(measured(dem::quantity::compressive_strength, "compression",
+                       "Largest axial stress; without confining pressure the uniaxial compressive strength, UCS."),
+              0.03);
+inline constexpr Quantity tensile_strength = scattered(
+    measured(dem::quantity::tensile_strength, "direct_tension", "Largest axial stress between the grips."), 0.04);
 inline constexpr Quantity peak_strain =
     measured(dem::quantity::peak_strain, loaded, "Axial strain of the gauge at the largest axial stress.");
 inline constexpr Quantity residual_over_peak{
@@ -73,6 +78,7 @@ inline constexpr Quantity crack_damage{.id = "crack_damage",
                                        .name = "Crack damage stress",
                                        .symbol = "σ_cd",
                                        .unit = "MPa",
+                                       .scatter = 0.05,
                                        .tests = "compression",
                                        .meaning = "Stress at the largest volumetric strain before the peak."};
 inline constexpr Quantity crack_damage_strain{
@@ -89,12 +95,15 @@ inline constexpr Quantity inter_grain_share{
     .name = "Inter-grain share of contacts",
     .shown = "%",
     .factor = 100,
+    .scatter = 0.006,
     .meaning = "Contacts between particles of different grains over all contacts."};
 inline constexpr Quantity coordination{.id = "coordination",
                                        .name = "Coordination number",
+                                       .scatter = 0.0015,
                                        .meaning = "Mean number of contacts of a particle of the packing."};
 inline constexpr Quantity porosity{.id = "porosity",
                                    .name = "Porosity",
+                                   .scatter = 0.003,
                                    .meaning = "Volume of the packing that no sphere fills, overlaps counted twice."};
 inline constexpr Quantity mineral_share{.id = "mineral_share.*",
                                         .name = "Share of a mineral",
