@@ -170,6 +170,20 @@ std::vector<Key> declare() {
        .affects = Affects::test,
        .when = {"compression"},
        .help = "of a plane in a loading step, compression"},
+      {.path = "loading.largest_strain",
+       .low = 0,
+       .high = 0.5,
+       .standard = "0.0",
+       .affects = Affects::test,
+       .when = {"tension", "compression"},
+       .help = "a test that has not failed is given up there; 0: 8 Tu / E in tension, 4 Cu / E in compression"},
+      {.path = "loading.most_steps",
+       .type = KeyType::integer,
+       .low = 1,
+       .high = 1e12,
+       .standard = "1000000000",
+       .affects = Affects::test,
+       .help = "time steps after which a test is given up that has not failed or come to its strains"},
       {.path = "loading.after_tension",
        .type = KeyType::integer,
        .low = 0,
@@ -213,6 +227,13 @@ std::vector<Key> declare() {
        .standard = "\"end_layers\"",
        .affects = Affects::test,
        .help = "strain from the end layers or from the planes"},
+      {.path = "measure.rate_bias",
+       .low = 0.001,
+       .high = 1,
+       .standard = "0.03",
+       .affects = Affects::test,
+       .when = {"tension", "compression"},
+       .help = "share by which fast loading may raise strengths before the check quasi_static fails"},
       {.path = "tests",
        .type = KeyType::texts,
        .choices = tests,
@@ -281,16 +302,22 @@ int axis_of(const std::string& direction) { return direction == "x" ? 0 : direct
 // Rock values are checked where their formulas are; here the message gets its place in the file.
 void check_rock(const Scenario& s) {
   const double nu = s.real("rock.poisson_ratio");
-  if (!(nu >= 0 && nu <= 0.2)) {
+  if (!(nu >= 0 && nu < 0.2)) {
     throw s.error("rock.poisson_ratio", fmt::format("Poisson's ratio is {}", nu),
-                  "it must lie in 0 ... 0.2: above, the shear stiffness of a bond Ks would be negative (Eq. 4), below, "
-                  "larger than Kn");
+                  "it must lie in 0 ... 0.2, and below 0.2: there the shear stiffness of a bond Ks is zero (Eq. 4) and "
+                  "bonds have no shear strength, above it is negative, and below 0 larger than Kn");
   }
   for (const char* key : {"rock.tensile_strength", "rock.compressive_strength"}) {
     if (!(s.real(key) > 0)) {
       throw s.error(key, fmt::format("the strength is {:g} MPa", 1e-6 * s.real(key)),
                     "write a positive strength, in compression too");
     }
+  }
+  if (s.real("rock.tensile_strength") > s.real("rock.compressive_strength")) {
+    throw s.error("rock.tensile_strength",
+                  fmt::format("the rock is stronger in tension, {:g} MPa, than in compression, {:g} MPa",
+                              1e-6 * s.real("rock.tensile_strength"), 1e-6 * s.real("rock.compressive_strength")),
+                  "no rock is: write at most rock.compressive_strength");
   }
   const double least = std::sqrt(2.0) / 4;
   if (s.real("rock.internal_friction") < least) {
@@ -366,7 +393,11 @@ Settings read_settings(const Scenario& s) {
   const double strength = r.test == "tension" ? r.rock.tensile_strength : r.rock.compressive_strength;
   // Along the rows a block first loses the rows, or all between them, and carries on with the rest: in tension to six
   // times the strain of the others, in compression as columns of elements that never fail.
-  r.loading.largest_strain = (r.test == "tension" ? 8 : 4) * strength / r.rock.young_modulus;
+  r.loading.largest_strain = s.real("loading.largest_strain");
+  if (r.loading.largest_strain == 0)
+    r.loading.largest_strain = (r.test == "tension" ? 8 : 4) * strength / r.rock.young_modulus;
+  r.loading.most_steps = s.integer("loading.most_steps");
+  r.rate_bias = s.real("measure.rate_bias");
   r.strains = s.reals("elastic.strains");
   if (r.strains.empty() || !std::is_sorted(r.strains.begin(), r.strains.end())) {
     throw s.error("elastic.strains", "the strains do not rise", "list at least one, the smallest first");

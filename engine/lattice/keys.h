@@ -26,6 +26,7 @@ struct Settings {
   ElasticMethod method = ElasticMethod::rest;
   Section section = Section::centres;
   Gauge gauge = Gauge::end_layers;
+  double rate_bias = 0.03;  ///< that is let pass
 };
 
 /// Throws InputError, with the line of the key, for values that are wrong together.

@@ -39,7 +39,11 @@ double cross_section(const Block& block, int axis) {
 }
 
 StrengthTest::StrengthTest(const Block& block, const Setup& setup, const Loading& loading)
-    : setup_(setup), loading_(loading), solver_(block, setup), area_(cross_section(block, setup.axis)) {}
+    : setup_(setup),
+      loading_(loading),
+      solver_(block, setup),
+      area_(cross_section(block, setup.axis)),
+      length_(block.extent()[static_cast<std::size_t>(setup.axis)]) {}
 
 double StrengthTest::stress(const Sample& s) const {
   const double tension = 0.5 * (s.force[0] + s.force[1]) / area_;
@@ -66,6 +70,10 @@ void StrengthTest::take(const Sample& s, bool keep) {
   elastic_peak_ = std::max(elastic_peak_, s.elastic());
   if (s.work > 0) residual_ = std::max(residual_, std::abs(s.imbalance()) / std::max(s.work, 1e-3 * work_));
   if (friction_from_ < 0 && s.frictional > 1e-6 * s.work && s.frictional > 0) friction_from_ = s.step;
+  if (s.opening + s.sliding == 0) {
+    kinetic_before_ += s.kinetic;
+    elastic_before_ += s.elastic();
+  }
   if (now > peak_stress_) {
     peak_stress_ = now;
     peak_ = s;
@@ -96,17 +104,30 @@ bool StrengthTest::advance() {
     }
   }
   ++loading_steps_;
-  const bool too_far = loading_.largest_strain > 0 && std::abs(solver_.strain()) > loading_.largest_strain;
-  if ((failed() && solver_.step() - failed_at_ > loading_.after) || (too_far && !failed())) over_ = true;
+  if (failed() ? solver_.step() - failed_at_ > loading_.after : !given_up().empty()) over_ = true;
   if (!std::isfinite(last_stress_)) throw CaseError("the motion is not finite any more");
   return !over_;
+}
+
+std::string_view StrengthTest::given_up() const {
+  if (failed()) return {};
+  if (loading_.largest_strain > 0 && std::abs(solver_.strain()) > loading_.largest_strain)
+    return "loading.largest_strain";
+  return loading_.most_steps > 0 && solver_.step() >= loading_.most_steps ? "loading.most_steps" : "";
+}
+
+double StrengthTest::rate_bias() const {
+  constexpr double of_speed = 4.5, of_step = 3;
+  const double step = (loading_.both ? 2 : 1) * loading_.motion / length_, peak = std::abs(peak_.between_planes);
+  const double speed = elastic_before_ > 0 ? std::sqrt(kinetic_before_ / elastic_before_) : 0;
+  return std::max(of_speed * speed, peak > 0 ? of_step * step / peak : 0);
 }
 
 StrengthTest::State StrengthTest::state() const {
   return {solver_.state(),
           history_,
           peak_,
-          {peak_stress_, last_stress_, residual_, work_, elastic_peak_},
+          {peak_stress_, last_stress_, residual_, work_, elastic_peak_, kinetic_before_, elastic_before_},
           {loading_steps_, dense_, failed_at_, friction_from_, over_ ? 1 : 0}};
 }
 
@@ -119,6 +140,8 @@ void StrengthTest::restore(const State& s) {
   residual_ = s.numbers.at(2);
   work_ = s.numbers.at(3);
   elastic_peak_ = s.numbers.at(4);
+  kinetic_before_ = s.numbers.at(5);
+  elastic_before_ = s.numbers.at(6);
   loading_steps_ = s.counts.at(0);
   dense_ = s.counts.at(1);
   failed_at_ = s.counts.at(2);
@@ -137,6 +160,7 @@ std::vector<ElasticPoint> elastic_at_rest(const Block& block, Setup setup, const
   // Displacements along the way are path dependent through the rotation of the shear springs: no step above 2e-5.
   constexpr double largest_step = 2e-5;
   std::vector<ElasticPoint> points;
+  int restless = 0;
   double reached = 0, yield = 1;  // strain of the block per strain between the planes
   for (const double target : strains) {
     const int parts = std::max(1, static_cast<int>(std::ceil((target - reached) / largest_step)));
@@ -146,14 +170,20 @@ std::vector<ElasticPoint> elastic_at_rest(const Block& block, Setup setup, const
       const double before = solver.strain();
       solver.run(1, motion, -motion);
       Sample s;
-      for (int round = 0; round < 200; ++round) {
+      bool rests = false;
+      for (int round = 0; round < 200 && !rests; ++round) {
         tick(to / strains.back());
         solver.run(part == parts ? 200 : 100);
         s = solver.sampled_step();
-        if (s.kinetic < (part == parts ? 1e-18 : 1e-10) * s.elastic()) break;
+        // At a turning point it is below zero: the mean of two steps, see solver.h.
+        rests = std::abs(s.kinetic) < (part == parts ? 1e-18 : 1e-10) * s.elastic();
       }
+      if (!rests) ++restless;
       yield *= (before - s.strain) / (to + before);
-      if (part == parts) points.push_back(point_of(s, area));
+      if (part == parts) {
+        points.push_back(point_of(s, area));
+        points.back().restless = restless;
+      }
     }
     reached = target;
   }
@@ -167,7 +197,7 @@ std::vector<ElasticPoint> elastic_by_steps(const Block& block, Setup setup, cons
   const Drift drift = drift_of(loading);
   const double area = cross_section(block, setup.axis);
   std::vector<ElasticPoint> points;
-  while (points.size() < strains.size()) {
+  while (points.size() < strains.size() && (loading.most_steps == 0 || solver.step() < loading.most_steps)) {
     const Sample s = solver.sampled_step(drift.low, drift.high);
     while (points.size() < strains.size() && std::abs(s.strain) >= strains[points.size()])
       points.push_back(point_of(s, area));

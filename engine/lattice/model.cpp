@@ -102,16 +102,15 @@ void run_strength(Record& record, const CaseSpec& spec, const Settings& settings
     if (i % 10 != 0) continue;
     keeper.look([&] { return test.state(); });
     const double strain = std::abs(test.solver().strain());
-    double done = 0.95 * std::min(1.0, strain / (1.3 * expected));
+    // Where it will fail is a guess: a quarter further than here at least, and where it is given up at most.
+    const Loading& l = settings.loading;
+    double done = 0.95 * std::min(1.0, strain / std::min(std::max(1.3 * expected, 1.25 * strain), l.largest_strain));
+    done = std::max(done, 0.95 * static_cast<double>(test.solver().step()) / static_cast<double>(l.most_steps));
     if (test.failed()) {
       done = 0.95 +
              0.05 * static_cast<double>(test.solver().step() - test.failed_at()) / std::max(1, settings.loading.after);
     }
     context.report({"loading", test.solver().step(), done, strain, test.latest_stress()});
-  }
-  if (test.solver().cracks().empty()) {
-    throw CaseError(fmt::format("no bond of the block of {} elements broke up to a strain of {:.3g}", block.site.size(),
-                                settings.loading.largest_strain));
   }
   add_strength(record, settings, block, test);
 }
@@ -135,6 +134,13 @@ Record run(const CaseSpec& spec, RunContext& context) {
   settings.setup.set = fastest_set(block, settings.setup);
   Record record = new_record(model(), spec);
   add_micro(record, settings.micro);
+  constexpr double little = 0.05;
+  if (settings.micro.ks < little * settings.micro.kn) {
+    record.notes.push_back(fmt::format(
+        "The shear stiffness of a bond is {:.2g} of its normal stiffness, because Poisson’s ratio is near its limit of "
+        "0.2: the block shears with hardly any resistance.",
+        settings.micro.ks / settings.micro.kn));
+  }
   if (settings.test == "elastic") {
     run_elastic(record, settings, block, context);
   } else {

@@ -123,21 +123,39 @@ const Sample& sample_from(const std::vector<Sample>& h, std::int64_t step) {
   return found == h.end() ? h.back() : *found;
 }
 
-// Largest stress of a test that ended in failure. Loaded along its rows a block may never fail.
-double strength_of(const StrengthTest& test, const StressStrain& m) {
-  return test.failed() ? m.stress(test.peak()) : std::numeric_limits<double>::quiet_NaN();
+// Largest stress of a test that ended in failure. Loaded along its rows a block may never fail: then a note.
+void put_strength(Record& r, const StrengthTest& test, const StressStrain& m, double of_rock, const Quantity& strength,
+                  const Quantity& error) {
+  if (test.failed()) {
+    r.put(strength, 1e-6 * m.stress(test.peak()));
+    r.put(error, 100 * (m.stress(test.peak()) / of_rock - 1));
+    return;
+  }
+  const Sample& end = test.history().back();
+  r.notes.push_back(fmt::format(
+      "No strength was found up to a strain of {:.3g} % ({} time steps), where {} ended the test: {}, and the largest "
+      "stress was {:.4g} MPa.",
+      100 * std::abs(m.strain(end)), test.solver().step(), test.given_up(),
+      test.solver().cracks().empty() ? "no bond broke" : fmt::format("{} bonds broke", test.solver().cracks().size()),
+      1e-6 * m.stress(test.peak())));
+}
+
+// What did not happen has no number.
+void put_finite(Record& r, const Quantity& quantity, double value) {
+  if (std::isfinite(value)) r.put(quantity, value);
 }
 
 void tension_results(Record& r, const Settings& s, const StrengthTest& test, const StressStrain& m) {
   const auto& h = test.history();
   const double dt = s.setup.time_step;
-  const double strength = strength_of(test, m);
-  r.put(quantity::tensile_strength, 1e-6 * strength);
-  r.put(quantity::tensile_strength_error, 100 * (strength / s.rock.tensile_strength - 1));
-  r.put(quantity::peak_strain, m.strain(test.peak()));
+  put_strength(r, test, m, s.rock.tensile_strength, quantity::tensile_strength, quantity::tensile_strength_error);
+  if (test.failed()) r.put(quantity::peak_strain, m.strain(test.peak()));
   const auto [first, last] = main_burst(test.solver().cracks());
-  r.put(quantity::failure_time, static_cast<double>(first) * dt);
-  r.put(quantity::crack_duration, static_cast<double>(last - first) * dt);
+  const bool parts = first >= 0;
+  if (parts) {
+    r.put(quantity::failure_time, static_cast<double>(first) * dt);
+    r.put(quantity::crack_duration, static_cast<double>(last - first) * dt);
+  }
   const double width = s.shape.ny * s.micro.diameter;  // the paper's 1.2 cm for 12 elements
   if (last > first) r.put(quantity::crack_speed, width / (static_cast<double>(last - first) * dt));
   double kinetic = 0, share = 0;
@@ -146,24 +164,26 @@ void tension_results(Record& r, const Settings& s, const StrengthTest& test, con
     kinetic = x.kinetic;
     share = x.kinetic / x.work;
   }
-  r.put(quantity::kinetic_share, share);
+  if (parts) r.put(quantity::kinetic_share, share);
   double before_parting = 0;
   for (const Sample& x : h) {
     if (x.step <= last) before_parting = x.frictional / x.work;
   }
-  r.put(quantity::frictional_share_at_parting, before_parting);
+  if (parts) r.put(quantity::frictional_share_at_parting, before_parting);
   r.put(quantity::frictional_share, h.back().frictional / h.back().work);
-  if (test.friction_from() >= 0) {
+  if (parts && test.friction_from() >= 0) {
     r.put(quantity::friction_after_last_opening, static_cast<double>(test.friction_from() - last) * dt);
   }
-  r.put(quantity::viscous_share_of_heat, h.back().viscous / h.back().heat());
-  r.put(quantity::viscous_share_after_parting, (1 - sample_from(h, last + 1).viscous / h.back().viscous));
+  put_finite(r, quantity::viscous_share_of_heat, h.back().viscous / h.back().heat());
+  if (parts)
+    put_finite(r, quantity::viscous_share_after_parting, (1 - sample_from(h, last + 1).viscous / h.back().viscous));
 }
 
 // The loading step before the peak in which most bonds opened: A1 of the paper's Fig. 5.
 struct Opening {
   std::size_t before = 0;  // sample
   double low = 0;          // smallest stress up to the recovery
+  std::int64_t bonds = 0;  // that opened; 0: none did
 };
 Opening largest_opening(const std::vector<Sample>& h, std::int64_t peak_step, const StressStrain& m) {
   constexpr std::int64_t window = 300;  // steps: opening runs through the block like the crack in tension
@@ -178,6 +198,7 @@ Opening largest_opening(const std::vector<Sample>& h, std::int64_t peak_step, co
       found.before = i;
     }
   }
+  found.bonds = most;
   found.low = m.stress(h[found.before]);
   for (std::size_t i = found.before; i < h.size() && h[i].step < h[found.before].step + 5 * window; ++i) {
     found.low = std::min(found.low, m.stress(h[i]));
@@ -188,25 +209,26 @@ Opening largest_opening(const std::vector<Sample>& h, std::int64_t peak_step, co
 void compression_results(Record& r, const Settings& s, const StrengthTest& test, const StressStrain& m) {
   const auto& h = test.history();
   const double dt = s.setup.time_step;
-  const double strength = strength_of(test, m);
-  r.put(quantity::compressive_strength, 1e-6 * strength);
-  r.put(quantity::compressive_strength_error, 100 * (strength / s.rock.compressive_strength - 1));
-  r.put(quantity::peak_strain, m.strain(test.peak()));
+  put_strength(r, test, m, s.rock.compressive_strength, quantity::compressive_strength,
+               quantity::compressive_strength_error);
+  if (test.failed()) r.put(quantity::peak_strain, m.strain(test.peak()));
   const auto before_first = [&](auto Sample::*count) {
-    double stress = std::numeric_limits<double>::quiet_NaN();
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    double stress = none;
     for (const Sample& x : h) {
-      if (x.*count > 0) break;
+      if (x.*count > 0) return 1e-6 * stress;
       stress = m.stress(x);
     }
-    return 1e-6 * stress;
+    return none;
   };
-  r.put(quantity::first_opening, before_first(&Sample::opening));
-  r.put(quantity::first_sliding, before_first(&Sample::sliding));
-  const Opening a1 = largest_opening(h, test.peak().step, m);
-  r.put(quantity::a1_stress, 1e-6 * m.stress(h[a1.before]));
-  r.put(quantity::a1_strain, m.strain(h[a1.before]));
-  r.put(quantity::a1_stress_after, 1e-6 * a1.low);
-  r.put(quantity::a1_time, h[a1.before].time);
+  put_finite(r, quantity::first_opening, before_first(&Sample::opening));
+  put_finite(r, quantity::first_sliding, before_first(&Sample::sliding));
+  if (const Opening a1 = largest_opening(h, test.peak().step, m); a1.bonds > 0) {
+    r.put(quantity::a1_stress, 1e-6 * m.stress(h[a1.before]));
+    r.put(quantity::a1_strain, m.strain(h[a1.before]));
+    r.put(quantity::a1_stress_after, 1e-6 * a1.low);
+    r.put(quantity::a1_time, h[a1.before].time);
+  }
 
   // C1 to C2: the bonds that slide at the failure, from the peak on.
   std::int64_t first = -1, last = -1;
@@ -219,21 +241,26 @@ void compression_results(Record& r, const Settings& s, const StrengthTest& test,
     last = slides[slides.size() * 99 / 100];  // all but the last hundredth: single bonds break long after
   }
   const Sample &c1 = sample_from(h, first - 1), &c2 = sample_from(h, last + 1);
-  r.put(quantity::sliding_start, static_cast<double>(first) * dt);
-  r.put(quantity::sliding_duration, static_cast<double>(last - first) * dt);
-  r.put(quantity::normal_share_of_sliding_heat,
-        (c2.breaking_normal - c1.breaking_normal) /
-            std::max(1e-300, c2.breaking_normal + c2.breaking_shear - c1.breaking_normal - c1.breaking_shear));
-  r.put(quantity::frictional_share_after_sliding, (1 - c2.frictional / std::max(1e-300, h.back().frictional)));
+  const bool slid = first >= 0;
+  if (slid) {
+    r.put(quantity::sliding_start, static_cast<double>(first) * dt);
+    r.put(quantity::sliding_duration, static_cast<double>(last - first) * dt);
+    r.put(quantity::normal_share_of_sliding_heat,
+          (c2.breaking_normal - c1.breaking_normal) /
+              std::max(1e-300, c2.breaking_normal + c2.breaking_shear - c1.breaking_normal - c1.breaking_shear));
+    r.put(quantity::frictional_share_after_sliding, (1 - c2.frictional / std::max(1e-300, h.back().frictional)));
+  }
   double kinetic = 0, elastic_least = test.peak().elastic();
   for (const Sample& x : h) {
     if (x.step < test.peak().step) continue;
     kinetic = std::max(kinetic, x.kinetic);
     elastic_least = std::min(elastic_least, x.elastic());
   }
+  if (!test.failed()) return;
   r.put(quantity::kinetic_share, kinetic / test.peak().elastic());
   r.put(quantity::elastic_left_share, elastic_least / test.peak().elastic());
-  r.put(quantity::viscous_share_of_heat, (h.back().viscous - c1.viscous) / (h.back().heat() - c1.heat()));
+  if (slid)
+    put_finite(r, quantity::viscous_share_of_heat, (h.back().viscous - c1.viscous) / (h.back().heat() - c1.heat()));
 }
 
 void add_size(Record& r, const Block& block) {
@@ -279,6 +306,19 @@ void add_strength(Record& r, const Settings& s, const Block& block, const Streng
       {"energy_residual", test.largest_residual(), limit, test.largest_residual() <= limit,
        "Elastic, kinetic and potential energy and all heat add up to the work of the planes at every sample; the "
        "residual is a share of the work, taken as at least a thousandth of its largest value."});
+  constexpr double usual_bias = 0.03;
+  const double bias = test.rate_bias();
+  if (test.failed() && bias > usual_bias && bias <= s.rate_bias) {
+    r.notes.push_back(fmt::format(
+        "Loaded fast: the strength may be {:.0f} % above that of slow loading (measure.rate_bias lets {:g} % pass).",
+        100 * bias, 100 * s.rate_bias));
+  }
+  if (!test.solver().cracks().empty()) {
+    r.checks.push_back(
+        {"quasi_static", bias, s.rate_bias, bias <= s.rate_bias,
+         "Share by which the rate of loading raises the strength, estimated from the kinetic energy over the elastic "
+         "before the first bond breaks and from the strain of a loading step over that of the peak."});
+  }
   const auto unseen = static_cast<double>(test.solver().unseen_contacts());
   r.checks.push_back(
       {"contacts_outside_lattice", unseen, 0, unseen == 0,
@@ -305,12 +345,23 @@ void add_elastic(Record& r, const Settings& s, const Block& block, const std::ve
     e_error += std::abs(modulus.back() / s.rock.young_modulus - 1) / static_cast<double>(points.size());
     nu_error += std::abs(nu.back() / s.rock.poisson_ratio - 1) / static_cast<double>(points.size());
   }
-  r.put(quantity::young_modulus, 1e-9 * modulus.front());
-  r.put(quantity::poisson_ratio, nu.front());
-  r.put(quantity::young_modulus_error, 100 * e_error);
-  if (s.rock.poisson_ratio > 0) r.put(quantity::poisson_ratio_error, 100 * nu_error);
-  r.put(quantity::young_modulus_at_largest_strain, 1e-9 * modulus.back());
-  r.put(quantity::poisson_ratio_at_largest_strain, nu.back());
+  if (!points.empty()) {
+    r.put(quantity::young_modulus, 1e-9 * modulus.front());
+    r.put(quantity::poisson_ratio, nu.front());
+    r.put(quantity::young_modulus_error, 100 * e_error);
+    if (s.rock.poisson_ratio > 0) r.put(quantity::poisson_ratio_error, 100 * nu_error);
+    r.put(quantity::young_modulus_at_largest_strain, 1e-9 * modulus.back());
+    r.put(quantity::poisson_ratio_at_largest_strain, nu.back());
+  }
+  if (s.method == ElasticMethod::rest) {
+    const double restless = points.empty() ? 0 : points.back().restless;
+    r.checks.push_back({"at_rest", restless, 0, restless == 0,
+                        "Searches for rest that were given up before the kinetic energy had fallen to its limit."});
+  } else {
+    const auto missing = static_cast<double>(s.strains.size() - points.size());
+    r.checks.push_back({"strains_reached", missing, 0, missing == 0,
+                        "Strains of elastic.strains that loading.most_steps did not let the test come to."});
+  }
   add_size(r, block);
   t.add("axial_strain", "1", std::move(strain));
   t.add("strain_between_planes", "1", std::move(between));

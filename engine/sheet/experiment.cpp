@@ -24,7 +24,7 @@ Experiment::Experiment(Sheet& sheet, Solver& solver, Loading loading, int thread
 void Experiment::relaxed(const Relaxation& r) {
   auto& e = state_.equilibrium;
   ++e.relaxations;
-  e.worst = std::max(e.worst, r.unbalanced);
+  if (!(r.unbalanced <= e.worst)) e.worst = r.unbalanced;  // what is not a number stays
   if (!r.reached) ++e.missed;
 }
 

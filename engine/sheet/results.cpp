@@ -212,8 +212,9 @@ void add_checks(Record& record, const Settings& settings, const Experiment& expe
   const auto& e = experiment.state().equilibrium;
   if (settings.solver == "converged") {
     record.checks.push_back({"equilibrium", e.worst, settings.converged.tolerance,
-                             e.worst <= settings.converged.tolerance,
-                             "Largest unbalanced force over the largest spring force, after any load step or break."});
+                             e.worst <= settings.converged.tolerance && e.missed == 0,
+                             "Largest unbalanced force over the largest spring force, after any load step or break; no "
+                             "search for equilibrium was given up."});
     const double residual = experiment.energy_residual();
     record.checks.push_back({"energy_residual", residual, 1e-4, residual <= 1e-4,
                              "Work that is neither elastic energy nor released by breaking or jumps, over the work."});
@@ -298,6 +299,10 @@ void add_results(Record& record, const Settings& settings, const Specimen& speci
     put(quantity::settled, static_cast<double>(work.settled));
   }
   add_checks(record, settings, experiment);
+  if (breaks.empty()) {
+    record.notes.push_back(fmt::format("No spring broke up to a strain of {:.3g} %, where loading.steps ended the run.",
+                                       100 * experiment.strain()));
+  }
   for (const std::string& note : specimen.map.notes) record.notes.push_back(note);
   if (specimen.cover.holes > 0 || specimen.cover.overlaps > 0) {
     record.notes.push_back(fmt::format(

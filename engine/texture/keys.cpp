@@ -11,6 +11,9 @@
 namespace dem::texture {
 namespace {
 
+constexpr double least_across = 5;   // particles across the specimen
+constexpr double least_grain = 1.5;  // mean diameter of the grains, over that of the particles
+
 // The rock, its specimen and the solver.
 std::vector<Key> declare_rock() {
   return {
@@ -267,6 +270,13 @@ std::vector<Key> declare_study() {
        .affects = Affects::test,
        .when = {"loaded"},
        .help = "share by which the axial stiffness leaves its plateau at crack initiation"},
+      {.path = "measure.rate_bias",
+       .low = 0.001,
+       .high = 1,
+       .standard = "0.03",
+       .affects = Affects::test,
+       .when = {"compression", "direct_tension"},
+       .help = "share by which fast loading may move strengths and moduli before the check quasi_static fails"},
       {.path = "tests",
        .type = KeyType::texts,
        .choices = names,
@@ -341,6 +351,36 @@ std::span<const Key> keys() {
   return declared;
 }
 
+namespace {
+
+// Particles must be small beside the specimen and its grains: else what is measured is their packing, not the rock.
+void check_fineness(const Scenario& s, const Settings& r) {
+  const double particle = r.packing.radius_min * (1 + r.packing.radius_ratio);  // mean diameter
+  const double across = r.packing.vessel.diameter / particle;
+  if (across < least_across) {
+    throw s.error(
+        "packing.minimum_radius",
+        fmt::format("only {:.1f} particles lie across the specimen: their mean diameter is {:.3g} mm", across,
+                    1e3 * particle),
+        fmt::format("write at most {:.3g} mm, for {:.0f} across; with fewer there is no inside that the "
+                    "platens and the jacket do not hold",
+                    1e3 * r.packing.vessel.diameter / (least_across * (1 + r.packing.radius_ratio)), least_across));
+  }
+  if (r.one_mineral) return;  // its grains are no boundaries
+  double grain = 0;
+  for (const Mineral& m : r.minerals) grain += m.share * 0.5 * (m.diameter_min + m.diameter_max) * r.seed_scale;
+  if (grain < least_grain * particle) {
+    throw s.error("packing.minimum_radius",
+                  fmt::format("grains of {:.3g} mm hold no more than a particle or two of {:.3g} mm", 1e3 * grain,
+                              1e3 * particle),
+                  fmt::format("write at most {:.3g} mm, or larger grains: with one particle a grain there is no inside "
+                              "of grains, and no shape",
+                              1e3 * grain / (least_grain * (1 + r.packing.radius_ratio))));
+  }
+}
+
+}  // namespace
+
 Settings read_settings(const Scenario& s, std::string_view test) {
   Settings r;
   r.packing.vessel = {s.real("specimen.diameter"), s.real("specimen.height")};
@@ -413,7 +453,9 @@ Settings read_settings(const Scenario& s, std::string_view test) {
   r.time_step_factor = s.real("solver.time_step_factor");
   r.test = test_entry(test).read(s);
   r.gauge = s.real("measure.gauge");
+  r.rate_bias = s.real("measure.rate_bias");
   r.stiffness_departure = s.real("measure.stiffness_departure");
+  check_fineness(s, r);
   return r;
 }
 

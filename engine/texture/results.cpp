@@ -242,6 +242,102 @@ void add_specimen_results(Record& record, const Specimen& specimen, const Settin
   }
 }
 
+// Coarser specimens are refused (keys.cpp); these are coarse enough to say so.
+void add_fineness(Record& record, const Specimen& specimen, const Settings& settings) {
+  constexpr double enough_across = 10, enough_in_grain = 10;
+  const double particle = settings.packing.radius_min * (1 + settings.packing.radius_ratio);
+  const double across = settings.packing.vessel.diameter / particle;
+  if (across < enough_across) {
+    record.notes.push_back(
+        fmt::format("Only {:.1f} particles lie across the specimen; {:.0f} or more leave an inside that the ends and "
+                    "the surface do not reach.",
+                    across, enough_across));
+  }
+  const double in_grain =
+      static_cast<double>(specimen.packing.radius.size()) / static_cast<double>(specimen.seeds.radius.size());
+  if (!settings.one_mineral && in_grain < enough_in_grain) {
+    record.notes.push_back(
+        fmt::format("A grain has {:.1f} particles in the mean; {:.0f} or more show its shape, and what is inside and "
+                    "between grains.",
+                    in_grain, enough_in_grain));
+  }
+}
+
+// What is read off the curve up to its largest stress.
+void add_characteristics(Record& record, const std::vector<HistoryRow>& h, const Characteristics& c) {
+  if (c.young_modulus) {
+    record.put(quantity::young_modulus, *c.young_modulus * giga);
+  } else if (c.gauge_share < 0.5 || c.gauge_share > 2) {
+    record.notes.push_back(
+        fmt::format("There is no Young’s modulus: while the stress rose from 10 to 30 % of its peak, the strain of the "
+                    "gauge was {:.2g} of that of the ends. The test is over before the ends have reached its middle; "
+                    "load it more slowly.",
+                    c.gauge_share));
+  }
+  if (c.poisson_ratio) record.put(quantity::poisson_ratio, *c.poisson_ratio);
+  if (c.initiation_stiffness) {
+    record.put(quantity::initiation_by_stiffness, h[*c.initiation_stiffness].axial_stress * mega);
+    record.put(quantity::initiation_strain, h[*c.initiation_stiffness].axial_strain);
+  }
+  if (c.stress_at_strain) record.put(quantity::stress_at_strain, *c.stress_at_strain * mega);
+  if (c.initiation_cracks) {
+    record.put(quantity::initiation_by_cracks, h[*c.initiation_cracks].axial_stress * mega);
+  }
+  if (c.initiation_volume) record.put(quantity::initiation_by_volume, h[*c.initiation_volume].axial_stress * mega);
+  if (c.damage) {
+    record.put(quantity::crack_damage, h[*c.damage].axial_stress * mega);
+    record.put(quantity::crack_damage_strain, h[*c.damage].axial_strain);
+  }
+}
+
+// The largest stress of a test that has ended by its rules; of one that was given up, what is known instead.
+void add_strength(Record& record, const Test& test, const Loading& loading, const Characteristics& c) {
+  const std::vector<HistoryRow>& h = loading.history();
+  const std::string_view limit = limit_reached(h, test.ending);
+  if (loading.end()) {
+    record.put(test.strength, h[c.peak].axial_stress * mega);
+    record.put(quantity::peak_strain, h[c.peak].axial_strain);
+    if (test.ending.follow > 0 && test.crack_stages && limit.empty()) {
+      // Mean over the last twentieth of the strain.
+      double sum = 0, count = 0;
+      for (const HistoryRow& r : h) {
+        if (r.platen_strain < 0.95 * h.back().platen_strain) continue;
+        sum += r.axial_stress;
+        count += 1;
+      }
+      record.put(quantity::residual_over_peak, sum / count / h[c.peak].axial_stress);
+    } else if (test.ending.follow > 0 && !limit.empty()) {
+      record.notes.push_back(
+          fmt::format("After its peak the test was followed to a strain of {:.3g} % and not to {:g} times that of the "
+                      "peak: {}.{} was reached.",
+                      100 * h.back().platen_strain, test.ending.follow, test.name, limit));
+    }
+    return;
+  }
+  record.notes.push_back(fmt::format(
+      "No strength was found up to a strain of {:.3g} % ({:.0f} steps), where {}.{} ended the test: the largest stress "
+      "was {:.3g} MPa at {:.3g} %, {}.",
+      100 * h.back().platen_strain, h.back().step - h.front().step, test.name, limit, h[c.peak].axial_stress * mega,
+      100 * h[c.peak].platen_strain,
+      h[c.peak].axial_stress > least_peak ? "and what followed is no failure"
+                                          : "too small to tell a failure (0.1 MPa)"));
+}
+
+// Loading must be slow beside the waves that carry a change through the specimen.
+void add_rate_check(Record& record, const Settings& settings, const Characteristics& c) {
+  const double bias = rate_bias(c.kinetic_share, settings.test.rate_sensitivity);
+  constexpr double usual = 0.03;
+  if (bias > usual && bias <= settings.rate_bias) {
+    record.notes.push_back(fmt::format(
+        "Loaded fast: strengths are some {:.0f} % above those of slow loading (measure.rate_bias lets {:g} % "
+        "pass).",
+        100 * bias, 100 * settings.rate_bias));
+  }
+  record.checks.push_back({"quasi_static", bias, settings.rate_bias, bias <= settings.rate_bias,
+                           "Share by which the rate of loading moves the strength or Young’s modulus, estimated from "
+                           "the kinetic energy between 10 and 50 % of the peak, over the elastic."});
+}
+
 void add_specimen_tables(Record& record, const Specimen& specimen, const Settings& settings) {
   record.tables.push_back(particle_table(specimen, settings));
   record.tables.push_back(grain_table(specimen, settings));
@@ -251,6 +347,7 @@ void add_specimen_tables(Record& record, const Specimen& specimen, const Setting
 }  // namespace
 
 void add_specimen(Record& record, const Specimen& specimen, const Settings& settings) {
+  add_fineness(record, specimen, settings);
   add_specimen_results(record, specimen, settings);
   const auto& rounds = specimen.grains.growth_round;
   const auto n = static_cast<double>(rounds.size());
@@ -277,33 +374,11 @@ void add_test(Record& record, const Specimen& specimen, const Settings& settings
   const double confining = test.confining_pressure;
   const Characteristics c = characterise(h, settings.stiffness_departure, test.crack_stages, confining);
   const std::size_t end = loading.end().value_or(h.size() - 1);
-  if (c.young_modulus) record.put(quantity::young_modulus, *c.young_modulus * giga);
-  if (c.poisson_ratio) record.put(quantity::poisson_ratio, *c.poisson_ratio);
-  record.put(test.strength, h[c.peak].axial_stress * mega);
-  record.put(quantity::peak_strain, h[c.peak].axial_strain);
-  if (test.ending.follow > 0 && test.crack_stages) {
-    // Mean over the last twentieth of the strain.
-    double sum = 0, count = 0;
-    for (const HistoryRow& r : h) {
-      if (r.platen_strain < 0.95 * h.back().platen_strain) continue;
-      sum += r.axial_stress;
-      count += 1;
-    }
-    record.put(quantity::residual_over_peak, sum / count / h[c.peak].axial_stress);
-  }
-  if (c.initiation_stiffness) {
-    record.put(quantity::initiation_by_stiffness, h[*c.initiation_stiffness].axial_stress * mega);
-    record.put(quantity::initiation_strain, h[*c.initiation_stiffness].axial_strain);
-  }
-  if (c.stress_at_strain) record.put(quantity::stress_at_strain, *c.stress_at_strain * mega);
-  if (c.initiation_cracks) {
-    record.put(quantity::initiation_by_cracks, h[*c.initiation_cracks].axial_stress * mega);
-  }
-  if (c.initiation_volume) record.put(quantity::initiation_by_volume, h[*c.initiation_volume].axial_stress * mega);
-  if (c.damage) {
-    record.put(quantity::crack_damage, h[*c.damage].axial_stress * mega);
-    record.put(quantity::crack_damage_strain, h[*c.damage].axial_strain);
-  }
+  // Below the noise there is nothing to divide by, and nothing to read off.
+  const bool loaded = loading.end() || h[c.peak].axial_stress > least_peak;
+  if (loaded) add_characteristics(record, h, c);
+  add_strength(record, test, loading, c);
+  add_fineness(record, specimen, settings);
   add_specimen_results(record, specimen, settings);
   for (std::size_t k = 0; k < 4; ++k) record.put(quantity::cracks[k], h[end].cracks[k]);
   for (std::size_t k = 0; k < 4; ++k) record.put(quantity::cracks_at_peak[k], h[c.peak].cracks[k]);
@@ -328,8 +403,10 @@ void add_test(Record& record, const Specimen& specimen, const Settings& settings
   }
   if (confining > 0) record.put(quantity::servo_error, servo);
   record.put(quantity::energy_residual, residual);
-  record.put(quantity::stress_imbalance, imbalance);
-  record.put(quantity::largest_stress_imbalance, largest);
+  if (loaded) {
+    record.put(quantity::stress_imbalance, imbalance);
+    record.put(quantity::largest_stress_imbalance, largest);
+  }
   record.put(quantity::steps, h.back().step + 1);
   record.put(quantity::particles, static_cast<double>(specimen.packing.radius.size()));
   record.put(quantity::contacts, static_cast<double>(specimen.bonds.size()));
@@ -341,9 +418,12 @@ void add_test(Record& record, const Specimen& specimen, const Settings& settings
       {"energy_residual", residual, residual_limit, residual <= residual_limit,
        "Largest residual of the energy account over max(W, 1 % of the largest W), W the work of the "
        "platens or grips, over all samples."});
-  record.checks.push_back({"equilibrium", imbalance, imbalance_limit, imbalance <= imbalance_limit,
-                           "Difference between the stresses at the two ends, root mean square of the samples up to the "
-                           "peak, over the peak stress."});
+  if (loaded) {
+    record.checks.push_back({"equilibrium", imbalance, imbalance_limit, imbalance <= imbalance_limit,
+                             "Difference between the stresses at the two ends, root mean square of the samples up to "
+                             "the peak, over the peak stress."});
+    add_rate_check(record, settings, c);
+  }
 
   if (confining > 0) {
     record.checks.push_back(

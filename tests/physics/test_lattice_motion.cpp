@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <tuple>
 
 #include "engine/core/random.h"
 #include "engine/lattice/loading.h"
+#include "engine/lattice/model.h"
 #include "engine/lattice/moduli.h"
+#include "engine/lattice/quantities.h"
 #include "tests/support/near.h"
 
 using namespace dem::lattice;
@@ -237,4 +241,110 @@ TEST_CASE("compressed along its rows a block splits between them and the rows go
   }
   CHECK(rows_whole == rows);
   CHECK(between_broken > between / 2);
+}
+
+TEST_CASE("the rate of loading is told by what it does to the block before the first bond breaks") {
+  // Compression of 82 elements: 198.9, 203.5 (+2.3 %) and 228.9 MPa (+15 %) at 5, 20 and 100 times the published motion.
+  const Block block = make_block(block_shape(4), 1e-3);
+  double before = 0;
+  for (const auto& [factor, low, high] : {std::tuple{20.0, 0.015, 0.03}, {100.0, 0.1, 0.2}}) {
+    Loading loading{.kind = TestKind::compression, .motion = factor * 1.7e-9, .burst = 8, .after = 0};
+    StrengthTest test(block, quartzite(block, PlaneKind::elastic), loading);
+    while (test.advance()) {
+    }
+    CAPTURE(factor);
+    CHECK(test.failed());
+    CHECK(test.given_up().empty());
+    CHECK(test.rate_bias() > low);
+    CHECK(test.rate_bias() < high);
+    CHECK(test.stress(test.peak()) > before);
+    before = test.stress(test.peak());
+  }
+}
+
+TEST_CASE("a strength test that does not fail is given up and leaves no strength, and nothing that is not a number") {
+  const Block block = make_block(block_shape(4), 1e-3);
+  for (const char* kind : {"tension", "compression"}) {
+    for (const char* limit : {"loading.largest_strain", "loading.most_steps"}) {
+      CAPTURE(kind);
+      CAPTURE(limit);
+      Settings s;
+      s.test = kind;
+      s.rock = {90e9, 0.16, 25e6, 252e6, 1, 2650};
+      s.setup = quartzite(block, PlaneKind::elastic);
+      s.micro = s.setup.micro;
+      s.shape = block_shape(4);
+      s.loading = {.kind = s.test == "tension" ? TestKind::tension : TestKind::compression, .motion = 1.7e-9};
+      if (limit == std::string("loading.most_steps")) {
+        s.loading.most_steps = 2000;
+      } else {
+        s.loading.largest_strain = 3e-5;
+      }
+      StrengthTest test(block, s.setup, s.loading);
+      while (test.advance()) {
+      }
+      CHECK_FALSE(test.failed());
+      CHECK(test.given_up() == limit);
+      dem::Record record;
+      record.quantities = quantities();
+      add_strength(record, s, block, test);
+      for (const auto& [id, value] : record.results) {
+        CAPTURE(id);
+        CHECK(std::isfinite(value));
+        CHECK(value >= 0);
+      }
+      for (const dem::Quantity* q :
+           {&quantity::tensile_strength, &quantity::compressive_strength, &quantity::failure_time,
+            &quantity::sliding_start, &quantity::first_opening, &quantity::a1_time}) {
+        CHECK_FALSE(record.has(*q));
+      }
+      REQUIRE(record.notes.size() == 1);
+      CHECK(record.notes[0].find("No strength was found up to a strain of") == 0);
+      CHECK(record.notes[0].find(limit) != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("an elastic series that does not come to rest, or to its strains, says so") {
+  const Block block = make_block(block_shape(2), 1e-3);
+  const auto check_of = [&](Settings s, const std::vector<ElasticPoint>& points) {
+    s.rock = {90e9, 0.16, 25e6, 252e6, 1, 2650};
+    dem::Record record;
+    record.quantities = quantities();
+    add_elastic(record, s, block, points);
+    REQUIRE(record.checks.size() == 1);
+    return record.checks[0];
+  };
+  Settings s;
+  s.setup = quartzite(block, PlaneKind::elastic);
+  s.strains = {1e-6, 1e-5};
+  CHECK(check_of(s, elastic_at_rest(block, s.setup, s.strains)).held);
+  Setup restless = s.setup;
+  restless.viscosity = 0;
+  const dem::Check check = check_of(s, elastic_at_rest(block, restless, s.strains));
+  CHECK(check.id == "at_rest");
+  CHECK_FALSE(check.held);
+  CHECK(check.value == 2);
+  s.method = ElasticMethod::steps;
+  s.loading = {.kind = TestKind::compression, .motion = 1.7e-9, .most_steps = 400};
+  const dem::Check cut = check_of(s, elastic_by_steps(block, s.setup, s.loading, s.strains));
+  CHECK(cut.id == "strains_reached");
+  CHECK_FALSE(cut.held);
+  s.loading.most_steps = 0;
+  CHECK(check_of(s, elastic_by_steps(block, s.setup, s.loading, s.strains)).held);
+}
+
+TEST_CASE("rocks that the lattice cannot be are refused with the line of the key") {
+  const auto said = [](const std::vector<std::string>& set) -> std::string {
+    try {
+      model().cases(dem::Scenario::read(DEM_SOURCE_DIR "/scenarios/quartzite_strength.toml", "smoke", set,
+                                        [](std::string_view) { return keys(); }));
+    } catch (const dem::InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK(said({}).empty());
+  CHECK(said({"rock.poisson_ratio=0.2"}).find("below 0.2") != std::string::npos);
+  CHECK(said({"rock.tensile_strength=\"300 MPa\""}).find("stronger in tension") != std::string::npos);
 }

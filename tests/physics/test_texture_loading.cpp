@@ -2,13 +2,17 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/core/archive.h"
 #include "engine/core/random.h"
 #include "engine/texture/keys.h"
+#include "engine/texture/loading/characteristics.h"
 #include "engine/texture/loading/direct_tension.h"
 #include "engine/texture/loading/loading.h"
 #include "engine/texture/model.h"
+#include "engine/texture/quantities.h"
+#include "engine/texture/results.h"
 #include "tests/support/granite.h"
 #include "tests/support/near.h"
 
@@ -96,6 +100,124 @@ TEST_CASE("the rules that end a test") {
     CHECK(is_over(history, {.stop = 0.8, .follow = 1.5}));
     CHECK_FALSE(is_over(history, {.stop = 0.8, .follow = 1.6}));
     CHECK(end_row(history, {.stop = 0.8, .follow = 1.6}) == 121);
+  }
+}
+
+TEST_CASE("a test that no rule ends is given up at its limits") {
+  const auto with_steps = [](std::vector<HistoryRow> history, double each) {
+    for (std::size_t i = 0; i < history.size(); ++i) history[i].step = 1 + each * static_cast<double>(i);
+    return history;
+  };
+  struct Case {
+    const char* words;
+    std::vector<HistoryRow> history;
+    Ending ending;
+    const char* limit;
+  };
+  const std::vector<Case> cases = {
+      {"it never bears a load", triangle(0, 5e-3, 1), {.largest_strain = 5e-3}, "largest_strain"},
+      {"a rock of kPa strength", triangle(0.9e5, 2e-3, 0.1), {.largest_strain = 3e-3}, "largest_strain"},
+      {"it does not fall to its share",
+       triangle(100e6, 2e-3, 0.6),
+       {.stop = 0.5, .largest_strain = 2.5e-3},
+       "largest_strain"},
+      {"it hardens on", triangle(100e6, 2e-3, 1), {.largest_strain = 2e-3}, "largest_strain"},
+      {"it is loaded too slowly", with_steps(triangle(100e6, 2e-3, 1), 10), {.most_steps = 1000}, "most_steps"},
+  };
+  for (const Case& c : cases) {
+    CAPTURE(c.words);
+    CHECK(limit_reached(c.history, c.ending) == c.limit);
+    CHECK(is_over(c.history, c.ending));
+    CHECK_FALSE(end_row(c.history, c.ending));
+    const std::vector<HistoryRow> before(c.history.begin(), c.history.begin() + 50);
+    CHECK(limit_reached(before, c.ending).empty());
+    CHECK_FALSE(is_over(before, c.ending));
+  }
+  CHECK(limit_reached({}, {.largest_strain = 1e-3}).empty());
+  // Every test that loads has both limits; its keys set them.
+  for (const TestEntry& entry : tests()) {
+    const std::string group = std::string(entry.name) + ".";
+    if (!entry.read(my_rock({})).loads()) continue;
+    const Test test = entry.read(my_rock({group + "largest_strain=0.002", group + "most_steps=77"}));
+    CHECK(test.ending.largest_strain == 0.002);
+    CHECK(test.ending.most_steps == 77);
+    CHECK(entry.read(my_rock({})).ending.largest_strain > 5 * test.typical_strain);
+  }
+}
+
+TEST_CASE("loading that is too fast, and a gauge that has not moved") {
+  CHECK(rate_bias(0, 6) == 0);
+  CHECK(rate_bias(1.2e-5, 6) < 0.03);  // ldb_uniaxial at draft scale
+  CHECK(rate_bias(1.2e-2, 6) > 0.3);   // at 4e-6 a step, where UCS was 40 % too large
+  CHECK(rate_bias(2e-6, 6) * 2 == test::near(rate_bias(8e-6, 6)));
+  // An elastic bar; its gauge moves by `share` of the ends.
+  const auto bar = [](double share, double kinetic) {
+    std::vector<HistoryRow> history = triangle(100e6, 2e-3, 0.7);
+    for (HistoryRow& row : history) {
+      row.axial_strain = share * row.platen_strain;
+      row.lateral_strain = -0.2 * row.axial_strain;
+      row.ledger.elastic = row.axial_stress;
+      row.ledger.kinetic = kinetic * row.axial_stress;
+    }
+    return history;
+  };
+  const Characteristics sound = characterise(bar(0.9, 1e-4), 0.02, true);
+  REQUIRE(sound.young_modulus);
+  CHECK(*sound.young_modulus == test::near(50e9 / 0.9).epsilon(1e-9));
+  CHECK(sound.kinetic_share == test::near(1e-4).epsilon(1e-9));
+  CHECK(sound.gauge_share == test::near(0.9).epsilon(1e-9));
+  CHECK(sound.poisson_ratio);
+  for (const double share : {0.0, 1e-6, 0.2, -1.0, 5.0}) {
+    CAPTURE(share);
+    const Characteristics still = characterise(bar(share, 0.1), 0.02, true);
+    CHECK_FALSE(still.young_modulus);
+    CHECK_FALSE(still.poisson_ratio);
+  }
+}
+
+TEST_CASE("specimens that are too coarse are refused, with the reason") {
+  const auto refused = [](const std::vector<std::string>& set, const std::string& word) {
+    try {
+      read_settings(my_rock(set), "compression");
+    } catch (const dem::InputError& error) {
+      return std::string(error.what()).find(word) != std::string::npos;
+    }
+    return false;
+  };
+  CHECK(refused({"packing.minimum_radius=\"1 mm\""}, "across the specimen"));
+  CHECK(refused({"packing.minimum_radius=\"0.6 mm\"", "texture.seed_scale=0.5"}, "a particle or two"));
+  CHECK_NOTHROW(read_settings(my_rock({"packing.minimum_radius=\"0.5 mm\""}), "compression"));
+}
+
+TEST_CASE("a tension that finds nothing to hold comes to its end and says how far it went") {
+  Settings settings = dem_test::granite(6.25, 12.5);
+  settings.test = direct_tension();
+  settings.test.rate = 1e-7;
+  settings.test.ending.largest_strain = 2e-5;
+  dem::RunContext context;
+  const Specimen specimen = make_specimen(settings, context);
+  Loading loading(specimen, settings, 1);
+  double before = 0;
+  while (loading.advance()) {
+    CHECK(loading.fraction() >= before);
+    before = loading.fraction();
+  }
+  CHECK(before > 0.5);
+  CHECK(loading.fraction() == 1);
+  CHECK_FALSE(loading.end());
+  dem::Record record;
+  record.quantities = quantities();
+  add_test(record, specimen, settings, loading);
+  CHECK_FALSE(record.has(quantity::tensile_strength));
+  CHECK_FALSE(record.has(quantity::peak_strain));
+  CHECK(record.has(quantity::coordination));
+  CHECK(std::ranges::any_of(record.notes, [](const std::string& note) {
+    return note.find("No strength was found up to a strain of") == 0 &&
+           note.find("direct_tension.largest_strain") != std::string::npos;
+  }));
+  for (const auto& [id, value] : record.results) {
+    CAPTURE(id);
+    CHECK(std::isfinite(value));
   }
 }
 

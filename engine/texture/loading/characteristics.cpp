@@ -7,6 +7,9 @@
 namespace dem::texture {
 namespace {
 
+// The gauge moves as the ends do, within this power of two; else the wave has not come to it, and there is no modulus.
+constexpr double most_octaves = 1.5;
+
 double total(const HistoryRow& row) { return row.cracks[0] + row.cracks[1] + row.cracks[2] + row.cracks[3]; }
 
 // First row at or above `stress`, on the way up.
@@ -23,6 +26,11 @@ double axial_stiffness(const std::vector<HistoryRow>& h, std::size_t row) {
   constexpr double least = 5e-5;  // below, the quotient shows the start of the platens and not the rock
   return strain > least ? (h[row].axial_stress - h.front().axial_stress) / strain
                         : std::numeric_limits<double>::quiet_NaN();
+}
+
+double rate_bias(double kinetic_share, double sensitivity) {
+  constexpr double of_modulus = 30;  // falls with the energy, strengths with the speed
+  return std::max(sensitivity * std::sqrt(kinetic_share), of_modulus * kinetic_share);
 }
 
 Characteristics characterise(const std::vector<HistoryRow>& h, double departure, bool crack_stages,
@@ -49,10 +57,20 @@ Characteristics characterise(const std::vector<HistoryRow>& h, double departure,
       xx += (h[i].axial_strain - x) * (h[i].axial_strain - x);
       xy += (h[i].axial_strain - x) * (h[i].axial_stress - y);
     }
-    if (xx > 0) c.young_modulus = xy / xx;
+    const double moved = h[high].axial_strain - h[low].axial_strain;
+    c.gauge_share = moved / (h[high].platen_strain - h[low].platen_strain);
+    if (xx > 0 && std::abs(std::log2(c.gauge_share)) < most_octaves) c.young_modulus = xy / xx;
   }
+  double kinetic = 0, elastic = 0;
+  for (std::size_t i = low; i <= half; ++i) {
+    kinetic += h[i].ledger.kinetic;
+    elastic += h[i].ledger.elastic;
+  }
+  if (elastic > 0) c.kinetic_share = kinetic / elastic;
   if (!crack_stages) return c;
-  if (half > 0 && h[half].axial_strain > 0) c.poisson_ratio = -h[half].lateral_strain / h[half].axial_strain;
+  const bool gauge_still = high > low + 1 && !c.young_modulus;
+  if (half > 0 && h[half].axial_strain > 0 && !gauge_still)
+    c.poisson_ratio = -h[half].lateral_strain / h[half].axial_strain;
   if (middle > low) {
     double plateau = 0;
     for (std::size_t i = low; i <= middle; ++i)

@@ -12,6 +12,9 @@ namespace dem::texture {
 struct Characteristics {
   std::size_t peak = 0;                 ///< row of the largest stress
   std::optional<double> young_modulus;  ///< least squares between 10 and 30 % of the peak
+  double gauge_share = 1;               ///< strain of the gauge over that of the ends there
+  /// Kinetic over elastic energy, both summed over the samples from 10 to 50 % of the peak.
+  double kinetic_share = 0;
   // Stages of cracking, for tests that have them (Test::crack_stages).
   std::optional<double> poisson_ratio;              ///< secant at half the peak
   std::optional<std::size_t> initiation_stiffness;  ///< row: axial stiffness leaves its early plateau
@@ -25,6 +28,10 @@ struct Characteristics {
 /// the peak are counted from the confining pressure (Pa), where the test starts.
 Characteristics characterise(const std::vector<HistoryRow>& history, double departure, bool crack_stages,
                              double confining_pressure = 0);
+
+/// Share by which a test is loaded too fast: about so much are its strength too large and its modulus too small.
+/// `sensitivity` is that of the strength (Test::rate_sensitivity). Calibrated in docs/notes/loading-rate.md.
+double rate_bias(double kinetic_share, double sensitivity);
 
 /// Axial stiffness of Eq. 9: (sigma - sigma_0) / (epsilon - epsilon_0), from the first row; NaN below a strain of 5e-5.
 double axial_stiffness(const std::vector<HistoryRow>& history, std::size_t row);

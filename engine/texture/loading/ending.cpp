@@ -5,8 +5,7 @@
 namespace dem::texture {
 namespace {
 
-constexpr double least_peak = 1e5;     // Pa: a test cannot end on the noise before it has begun
-constexpr double least_strain = 1e-3;  // nor on the strain of a first, small peak
+constexpr double least_strain = 1e-3;  // no test ends on the strain of a first, small peak
 
 // The rules. `peak` is the row of the largest stress so far.
 bool ends(const HistoryRow& row, const HistoryRow& peak, const Ending& ending) {
@@ -28,7 +27,17 @@ std::optional<std::size_t> end_row(const std::vector<HistoryRow>& history, const
   return {};
 }
 
+std::string_view limit_reached(const std::vector<HistoryRow>& history, const Ending& ending) {
+  if (history.empty()) return {};
+  const HistoryRow& last = history.back();
+  if (ending.largest_strain > 0 && last.platen_strain >= ending.largest_strain) return "largest_strain";
+  const double steps = last.step - history.front().step;
+  if (ending.most_steps > 0 && steps >= static_cast<double>(ending.most_steps)) return "most_steps";
+  return {};
+}
+
 bool is_over(const std::vector<HistoryRow>& history, const Ending& ending) {
+  if (!limit_reached(history, ending).empty()) return true;
   if (!end_row(history, ending)) return false;
   const auto peak = std::ranges::max_element(history, {}, &HistoryRow::axial_stress);
   return history.back().platen_strain >= ending.follow * peak->platen_strain;

@@ -40,8 +40,17 @@ void Loading::begin() {
 double Loading::fraction() const {
   if (ended_) return 1;
   if (history_.empty()) return 0;
-  const double follow = test_.ending.follow > 0 ? 2 : 1;
-  return std::min(0.95, history_.back().platen_strain / (follow * test_.typical_strain));
+  const Ending& ending = test_.ending;
+  const double strain = history_.back().platen_strain, steps = history_.back().step - history_.front().step;
+  // Where the test will end is a guess: a quarter further than here at least, and its limit at most.
+  double last = std::max((ending.follow > 0 ? 2 : 1) * test_.typical_strain, 1.25 * strain);
+  if (ending.follow > 0 && end()) {
+    last = ending.follow * std::ranges::max_element(history_, {}, &HistoryRow::axial_stress)->platen_strain;
+  }
+  if (ending.largest_strain > 0) last = std::min(last, ending.largest_strain);
+  double done = strain / last;
+  if (ending.most_steps > 0) done = std::max(done, steps / static_cast<double>(ending.most_steps));
+  return std::clamp(done, 0.0, 0.99);
 }
 
 bool Loading::advance() {

@@ -24,6 +24,7 @@ struct Settings {
   double damping = 0.7;
   double time_step_factor = 0.8;
   double gauge = 0.6;                 ///< length of the strain gauge over the height
+  double rate_bias = 0.03;            ///< that is let pass
   double stiffness_departure = 0.02;  ///< of the axial stiffness at crack initiation
 };
 

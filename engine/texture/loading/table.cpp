@@ -39,6 +39,8 @@ void read_pace(const Scenario& scenario, const std::string& group, Test& test) {
   test.ramp_strain = scenario.real(group + "ramp_strain");
   test.sample_strain = scenario.real(group + "sample_strain");
   test.ending.stop = scenario.real(group + "stop");
+  test.ending.largest_strain = scenario.real(group + "largest_strain");
+  test.ending.most_steps = scenario.integer(group + "most_steps");
   if (test.sample_strain < test.rate) {
     throw scenario.error(group + "sample_strain", "samples are closer than steps",
                          "write at least the value of " + group + "rate");

@@ -69,7 +69,8 @@ struct Test {
   double typical_strain = 1e-3;  ///< at the end of such tests; only the estimate of time left hangs on it
 
   // what is read off
-  Quantity strength = {};     ///< what the largest stress (MPa) is
+  Quantity strength = {};       ///< what the largest stress (MPa) is
+  double rate_sensitivity = 1;  ///< how its strength follows the rate, for rate_bias() (characteristics.h)
   bool crack_stages = false;  ///< the stages of cracking too: initiation and damage, Poisson's ratio, residual strength
 
   [[nodiscard]] bool loads() const { return hold != Hold::nothing; }
@@ -90,7 +91,8 @@ std::span<const TestEntry> tests();
 /// The test of that name. Throws InputError that names the known ones.
 const TestEntry& test_entry(std::string_view name);
 
-/// Reads what every test has from the keys of its group ("compression."): rate, ramp_strain, sample_strain, stop.
+/// Reads what every test has from the keys of its group ("compression."): rate, ramp_strain, sample_strain, stop,
+/// largest_strain, most_steps.
 /// Throws InputError when samples are closer than steps.
 void read_pace(const Scenario& scenario, const std::string& group, Test& test);
 

@@ -146,7 +146,8 @@ struct Front {
 };
 Front front_of(const dem::Record& r) {
   const Cracks c = cracks_of(r);
-  const double d1 = r.value(quantity::failure_time), d2 = d1 + r.value(quantity::crack_duration), half_step = 5e-9;
+  const double d1 = r.value_or_nan(quantity::failure_time), d2 = d1 + r.value_or_nan(quantity::crack_duration),
+               half_step = 5e-9;
   std::vector<std::size_t> first;
   Front f;
   double far = 0;
@@ -189,19 +190,28 @@ FigureContent crack_maps(const StudyResult& study) {
       "In tension the block breaks in two by opening alone; in compression bonds open first, then the block fails in "
       "sliding mode.";
   std::vector<std::string> said;
-  if (const dem::Record* r = main_record(study, "compression")) {
-    const double c1 = r->value(quantity::sliding_start), c2 = c1 + r->value(quantity::sliding_duration);
-    content.panels.push_back(
-        by_mode(*r, "compression_opening", r->value(quantity::a1_time) + 3e-6, "Compression, after A₁"));
-    content.panels.push_back(by_mode(*r, "compression_end", 1e9, "Compression, at the end"));
-    content.panels.push_back(by_time(*r, "compression_time", c1, c2, "Compression, C₁ to C₂", oblique,
+  const dem::Record* pressed = main_record(study, "compression");
+  if (pressed && !has_failure(*pressed)) {
+    said.push_back(no_failure_words(*pressed));
+  } else if (pressed) {
+    const double c1 = pressed->value_or_nan(quantity::sliding_start),
+                 c2 = c1 + pressed->value_or_nan(quantity::sliding_duration);
+    content.panels.push_back(by_mode(*pressed, "compression_opening", pressed->value_or_nan(quantity::a1_time) + 3e-6,
+                                     "Compression, after A₁"));
+    content.panels.push_back(by_mode(*pressed, "compression_end", 1e9, "Compression, at the end"));
+    content.panels.push_back(by_time(*pressed, "compression_time", c1, c2, "Compression, C₁ to C₂", oblique,
                                      "Bonds that broke at the failure, by time since C₁."));
-    said.push_back(fmt::format("in compression {} bonds opened and {} slid", count(r->value(quantity::cracks_opening)),
-                               count(r->value(quantity::cracks_sliding))));
+    said.push_back(fmt::format("in compression {} bonds opened and {} slid",
+                               count(pressed->value(quantity::cracks_opening)),
+                               count(pressed->value(quantity::cracks_sliding))));
   }
   for (const dem::Record* r : records_of(study, "tension")) {
+    if (!has_failure(*r)) {
+      said.push_back(no_failure_words(*r));
+      continue;
+    }
     const std::string planes = r->text("planes");
-    const double d1 = r->value(quantity::failure_time), d2 = d1 + r->value(quantity::crack_duration);
+    const double d1 = r->value_or_nan(quantity::failure_time), d2 = d1 + r->value_or_nan(quantity::crack_duration);
     content.panels.push_back(by_time(*r, "tension_time_" + planes, d1, d2, "Tension, planes: " + planes, oblique,
                                      "Bonds that opened, by time since D₁."));
     content.panels.push_back(by_time(*r, "tension_side_" + planes, d1, d2, "Tension, planes: " + planes, along_y,
@@ -222,6 +232,10 @@ FigureContent crack_front(const StudyResult& study) {
       "Breaking heat rises for 2.83 × 10⁻⁶ s while the crack crosses 1.2 cm: the opening crack runs at about 4240 m/s.";
   std::vector<std::string> said;
   for (const dem::Record* r : records_of(study, "tension")) {
+    if (!has_failure(*r)) {
+      said.push_back(no_failure_words(*r));
+      continue;
+    }
     Front f = front_of(*r);
     if (f.points.x.empty()) continue;
     const std::string planes = r->text("planes");

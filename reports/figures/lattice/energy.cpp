@@ -46,11 +46,11 @@ struct CompressionMarks {
 CompressionMarks marks_of(const dem::Record& r) {
   const dem::Table& h = r.table("history");
   CompressionMarks m{};
-  m.a1 = r.value(quantity::a1_time);
+  m.a1 = r.value_or_nan(quantity::a1_time);
   m.a2 = peak_time(h);
   m.a3 = time_of_least(h, elastic_columns(), m.a2);
-  m.c1 = r.value(quantity::sliding_start);
-  m.c2 = m.c1 + r.value(quantity::sliding_duration);
+  m.c1 = r.value_or_nan(quantity::sliding_start);
+  m.c2 = m.c1 + r.value_or_nan(quantity::sliding_duration);
   return m;
 }
 
@@ -60,8 +60,8 @@ struct TensionMarks {
 TensionMarks tension_marks(const dem::Record& r) {
   const dem::Table& h = r.table("history");
   TensionMarks m{};
-  m.d1 = r.value(quantity::failure_time);
-  m.d2 = m.d1 + r.value(quantity::crack_duration);
+  m.d1 = r.value_or_nan(quantity::failure_time);
+  m.d2 = m.d1 + r.value_or_nan(quantity::crack_duration);
   const render::Series kinetic = window(h, "kinetic", m.d1, 1e9, 0, 1);
   const double most = kinetic.y.empty() ? 0 : *std::ranges::max_element(kinetic.y);
   m.b2 = m.d2;
@@ -117,6 +117,10 @@ FigureContent stress_strain(const StudyResult& study) {
   if (auto missing = missing_cases(study, "compression")) content.panels.push_back(*missing);
   const dem::Record* r = main_record(study, "compression");
   if (!r) return content;
+  if (!has_failure(*r)) {
+    content.finding = sentence({no_failure_words(*r)});
+    return content;
+  }
   const dem::Table& h = r->table("history");
   const CompressionMarks m = marks_of(*r);
   render::Chart chart;
@@ -139,7 +143,7 @@ FigureContent stress_strain(const StudyResult& study) {
   render::Chart inset;
   inset.x.title = "Strain (10⁻³)";
   inset.left.title = "MPa";
-  const double far = 2.2 * 1e3 * r->value(quantity::a1_strain);
+  const double far = 2.2 * 1e3 * r->value_or_nan(quantity::a1_strain);
   render::Series part = curve;
   part.x.clear();
   part.y.clear();
@@ -148,7 +152,7 @@ FigureContent stress_strain(const StudyResult& study) {
     part.y.push_back(curve.y[i]);
   }
   inset.series = {part};
-  inset.marks.push_back(dot(1e3 * r->value(quantity::a1_strain), r->value(quantity::a1_stress), "A₁"));
+  inset.marks.push_back(dot(1e3 * r->value_or_nan(quantity::a1_strain), r->value_or_nan(quantity::a1_stress), "A₁"));
   inset.legend = render::Chart::Legend::none;
   chart.insets.push_back({{inset}, {0.60, 0.13, 0.36, 0.28}});
   chart.legend = render::Chart::Legend::none;
@@ -158,19 +162,19 @@ FigureContent stress_strain(const StudyResult& study) {
       {.id = "",
        .caption =
            count(r->value(quantity::particles)) + " elements in compression; the inset enlarges the first opening.",
-       .alt =
-           fmt::format("A1 at {} MPa falls to {}; the peak A2 is {} MPa at a strain of {}.",
-                       number(r->value(quantity::a1_stress), 3), number(r->value(quantity::a1_stress_after), 3),
-                       number(r->value(quantity::compressive_strength), 4), number(r->value(quantity::peak_strain), 3)),
+       .alt = fmt::format(
+           "A1 at {} MPa falls to {}; the peak A2 is {} MPa at a strain of {}.",
+           number(r->value_or_nan(quantity::a1_stress), 3), number(r->value_or_nan(quantity::a1_stress_after), 3),
+           number(r->value_or_nan(quantity::compressive_strength), 4), number(r->value(quantity::peak_strain), 3)),
        .content = chart,
        .per_row = 1});
   content.finding = fmt::format(
       "Bonds open first at {} MPa, at the boundary; the largest opening, A₁, is at {} MPa and lets stress drop to {} "
       "MPa. "
       "Bonds slide first at {} MPa; the strength A₂ is {} MPa at a strain of {}.",
-      number(r->value(quantity::first_opening), 3), number(r->value(quantity::a1_stress), 3),
-      number(r->value(quantity::a1_stress_after), 3), number(r->value(quantity::first_sliding), 4),
-      number(r->value(quantity::compressive_strength), 4), number(r->value(quantity::peak_strain), 3));
+      number(r->value_or_nan(quantity::first_opening), 3), number(r->value_or_nan(quantity::a1_stress), 3),
+      number(r->value_or_nan(quantity::a1_stress_after), 3), number(r->value_or_nan(quantity::first_sliding), 4),
+      number(r->value_or_nan(quantity::compressive_strength), 4), number(r->value(quantity::peak_strain), 3));
   return content;
 }
 
@@ -182,6 +186,10 @@ FigureContent energy_compression(const StudyResult& study) {
       "together always equal the work. Failure takes about 10⁻⁴ s; kinetic energy (inset) stays far below the elastic.";
   const dem::Record* r = main_record(study, "compression");
   if (!r) return content;
+  if (!has_failure(*r)) {
+    content.finding = sentence({no_failure_words(*r)});
+    return content;
+  }
   const dem::Table& h = r->table("history");
   const CompressionMarks m = marks_of(*r);
   const Unit unit = unit_of(h, {"work"});
@@ -215,8 +223,8 @@ FigureContent energy_compression(const StudyResult& study) {
       "After A₂ the elastic energy falls to {} % of its value there, in {} µs from C₁; kinetic energy never exceeds {} "
       "% of it. "
       "The ledger closes to {} of the work.",
-      number(100 * r->value(quantity::elastic_left_share), 2), number(1e6 * (m.a3 - m.c1), 3),
-      number(100 * r->value(quantity::kinetic_share), 2), number(r->value(quantity::energy_residual), 2));
+      number(100 * r->value_or_nan(quantity::elastic_left_share), 2), number(1e6 * (m.a3 - m.c1), 3),
+      number(100 * r->value_or_nan(quantity::kinetic_share), 2), number(r->value(quantity::energy_residual), 2));
   return content;
 }
 
@@ -229,6 +237,10 @@ FigureContent energy_tension(const StudyResult& study) {
   if (auto missing = missing_cases(study, "tension")) content.panels.push_back(*missing);
   std::vector<std::string> said;
   for (const dem::Record* r : records_of(study, "tension")) {
+    if (!has_failure(*r)) {
+      said.push_back(no_failure_words(*r));
+      continue;
+    }
     const dem::Table& h = r->table("history");
     const TensionMarks m = tension_marks(*r);
     const Unit unit = unit_of(h, {"work"});
@@ -250,14 +262,15 @@ FigureContent energy_tension(const StudyResult& study) {
     chart.width = width;
     chart.height = 500;
     const std::string planes = r->text("planes");
-    content.panels.push_back({.id = planes,
-                              .caption = fmt::format("Tension, planes: {}. The inset shows the failure.", planes),
-                              .alt = fmt::format("The block parts at {} s; kinetic energy reaches {} % of the work.",
-                                                 number(m.d1, 4), number(100 * r->value(quantity::kinetic_share), 3)),
-                              .content = chart,
-                              .per_row = 1});
+    content.panels.push_back(
+        {.id = planes,
+         .caption = fmt::format("Tension, planes: {}. The inset shows the failure.", planes),
+         .alt = fmt::format("The block parts at {} s; kinetic energy reaches {} % of the work.", number(m.d1, 4),
+                            number(100 * r->value_or_nan(quantity::kinetic_share), 3)),
+         .content = chart,
+         .per_row = 1});
     said.push_back(fmt::format("with {} planes it parts at {} s, kinetic share {} %", planes, number(m.d1, 4),
-                               number(100 * r->value(quantity::kinetic_share), 3)));
+                               number(100 * r->value_or_nan(quantity::kinetic_share), 3)));
   }
   if (!said.empty()) content.finding = sentence(said);
   return content;
@@ -271,6 +284,10 @@ FigureContent heat_compression(const StudyResult& study) {
       "by step; frictional heat goes on after C₂.";
   const dem::Record* r = main_record(study, "compression");
   if (!r) return content;
+  if (!has_failure(*r)) {
+    content.finding = sentence({no_failure_words(*r)});
+    return content;
+  }
   const CompressionMarks m = marks_of(*r);
   const double span = std::max(m.c2 - m.c1, 5e-6);
   content.panels.push_back(
@@ -278,16 +295,16 @@ FigureContent heat_compression(const StudyResult& study) {
        .caption = "Compression: heat at failure.",
        .alt = fmt::format("From C1 to C2 {} µs pass; {} % of the breaking heat in between is of normal springs.",
                           number(1e6 * (m.c2 - m.c1), 3),
-                          number(100 * r->value(quantity::normal_share_of_sliding_heat), 2)),
+                          number(100 * r->value_or_nan(quantity::normal_share_of_sliding_heat), 2)),
        .content = heats(*r, m.c1 - 0.3 * span, m.c2 + 1.5 * span, m.c1, {{m.c1, "C₁"}, {m.c2, "C₂"}}),
        .per_row = 1});
   content.finding = fmt::format(
       "From C₁ to C₂ {} µs pass. Normal springs have {} % of the breaking heat of that time. {} % of all frictional "
       "heat comes after C₂; "
       "{} % of the heat from C₁ to the end is viscous.",
-      number(1e6 * (m.c2 - m.c1), 3), number(100 * r->value(quantity::normal_share_of_sliding_heat), 2),
-      number(100 * r->value(quantity::frictional_share_after_sliding), 3),
-      number(100 * r->value(quantity::viscous_share_of_heat), 3));
+      number(1e6 * (m.c2 - m.c1), 3), number(100 * r->value_or_nan(quantity::normal_share_of_sliding_heat), 2),
+      number(100 * r->value_or_nan(quantity::frictional_share_after_sliding), 3),
+      number(100 * r->value_or_nan(quantity::viscous_share_of_heat), 3));
   return content;
 }
 
@@ -299,6 +316,10 @@ FigureContent heat_tension(const StudyResult& study) {
       "compression. Frictional heat is always zero.";
   std::vector<std::string> said;
   for (const dem::Record* r : records_of(study, "tension")) {
+    if (!has_failure(*r)) {
+      said.push_back(no_failure_words(*r));
+      continue;
+    }
     const TensionMarks m = tension_marks(*r);
     const double span = std::max(m.d2 - m.d1, 1e-6);
     const std::string planes = r->text("planes");
@@ -312,13 +333,13 @@ FigureContent heat_tension(const StudyResult& study) {
                                ? fmt::format(
                                      "frictional heat begins {} µs {} the last of them and ends at {} % of the work, "
                                      "where cracks close again",
-                                     number(1e6 * std::abs(r->value(quantity::friction_after_last_opening)), 3),
-                                     r->value(quantity::friction_after_last_opening) < 0 ? "before" : "after",
+                                     number(1e6 * std::abs(r->value_or_nan(quantity::friction_after_last_opening)), 3),
+                                     r->value_or_nan(quantity::friction_after_last_opening) < 0 ? "before" : "after",
                                      number(100 * r->value(quantity::frictional_share), 2))
                                : std::string("no frictional heat at any time");
     said.push_back(fmt::format("{} planes: bonds open for {} µs, {} % of the viscous heat comes later; {}", planes,
                                number(1e6 * (m.d2 - m.d1), 3),
-                               number(100 * r->value(quantity::viscous_share_after_parting), 3), friction));
+                               number(100 * r->value_or_nan(quantity::viscous_share_after_parting), 3), friction));
   }
   if (!said.empty()) content.finding = sentence(said);
   return content;

@@ -66,6 +66,16 @@ std::string choice_words(const dem::Record& record, const dem::Record& main) {
   return parts.empty() ? "as the series" : listed(parts);
 }
 
+bool has_failure(const dem::Record& r) {
+  if (r.text("test") == "tension") return r.has(quantity::failure_time);
+  return r.has(quantity::sliding_start) && r.has(quantity::a1_time) && r.has(quantity::compressive_strength);
+}
+
+std::string no_failure_words(const dem::Record& r) {
+  return fmt::format("{} of {} elements did not end in failure, so that its moments are not known", r.text("test"),
+                     count(r.value(quantity::particles)));
+}
+
 render::Series window_sum(const dem::Table& history, const std::vector<std::string>& columns, double from, double to,
                           double zero, double factor) {
   const auto time = history.real("time");

@@ -19,6 +19,12 @@ std::vector<const dem::Record*> records_of(const StudyResult& study, std::string
 /// Those along the number of elements, with the choices of the main record but whatever size of loading step; by size.
 std::vector<const dem::Record*> by_size(const StudyResult& study, std::string_view test);
 
+/// Whether the moments of a failure are known: D1 and D2 in tension, A1, C1 and C2 in compression. A test that was given
+/// up before has none.
+bool has_failure(const dem::Record& record);
+/// "tension of 82 elements did not end in failure, so that its moments are not known"
+std::string no_failure_words(const dem::Record& record);
+
 /// What sets a record apart from the main one: "planes rigid", "loading steps × 5"; "as the series" when nothing does.
 std::string choice_words(const dem::Record& record, const dem::Record& main);
 

@@ -48,9 +48,9 @@ render::Chart against_size(const StudyResult& study, const Test& test) {
   const double mean = rock * (1 + study.published_value(test.published_mean) / 100);
   double low = std::isfinite(mean) ? mean : rock, high = rock;
   for (const dem::Record* r : records) {
-    if (!std::isfinite(r->value(test.result))) continue;
+    if (!std::isfinite(r->value_or_nan(test.result))) continue;
     line.x.push_back(r->value(quantity::particles));
-    line.y.push_back(r->value(test.result));
+    line.y.push_back(r->value_or_nan(test.result));
   }
   line = styled(line, "this study", 0);
   line.marker = render::Marker::circle;
@@ -63,7 +63,7 @@ render::Chart against_size(const StudyResult& study, const Test& test) {
     for (const dem::Record* r : records_of(study, test.name)) {
       if (r->text("planes") != planes || r->text("direction") != main->text("direction")) continue;
       other.x.push_back(r->value(quantity::particles));
-      other.y.push_back(r->value(test.result));
+      other.y.push_back(r->value_or_nan(test.result));
     }
     if (other.x.empty()) continue;
     other = styled(other, fmt::format("planes: {}", planes), colour++, render::Line::none);
@@ -103,8 +103,8 @@ double mean_of_blocks(const StudyResult& study, const Test& test, int& n) {
   double sum = 0;
   n = 0;
   for (const dem::Record* r : by_size(study, test.name)) {
-    if (r->number("elements_y") < 3 || !std::isfinite(r->value(test.error))) continue;
-    sum += r->value(test.error);
+    if (r->number("elements_y") < 3 || !std::isfinite(r->value_or_nan(test.error))) continue;
+    sum += r->value_or_nan(test.error);
     ++n;
   }
   return n > 0 ? sum / n : std::nan("");
@@ -150,15 +150,15 @@ FigureContent block_strengths(const StudyResult& study) {
     content.panels.push_back({.id = std::string(test.name),
                               .caption = std::string(test.title) + " by number of elements.",
                               .alt = fmt::format("From {} MPa for {} elements to {} MPa for {}.",
-                                                 number(records.front()->value(test.result), 4),
+                                                 number(records.front()->value_or_nan(test.result), 4),
                                                  count(records.front()->value(quantity::particles)),
-                                                 number(records.back()->value(test.result), 4),
+                                                 number(records.back()->value_or_nan(test.result), 4),
                                                  count(records.back()->value(quantity::particles))),
                               .content = against_size(study, test),
                               .per_row = 1});
     if (records.front()->value(quantity::particles) == 4) {
       content.finding += fmt::format("Single unit in {}: {} %{}. ", test.name,
-                                     with_sign(number(records.front()->value(test.error), 3)),
+                                     with_sign(number(records.front()->value_or_nan(test.error), 3)),
                                      published_words(study.published_value(test.published_single), 3));
     }
     std::vector<std::string> larger;
@@ -192,27 +192,27 @@ FigureContent strength_choices(const StudyResult& study) {
     std::vector<double> sizes;
     const dem::Record* best = nullptr;
     const double published = study.published_value(test.published_mean);
-    const auto away = [&](const dem::Record& r) { return std::abs(r.value(test.error) - published); };
+    const auto away = [&](const dem::Record& r) { return std::abs(r.value_or_nan(test.error) - published); };
     for (const dem::Record* r : records_of(study, test.name)) {
       if (choice_words(*r, *main) != "as the series") sizes.push_back(r->number("elements_y"));
     }
     for (const dem::Record* r : records_of(study, test.name)) {
       if (std::ranges::find(sizes, r->number("elements_y")) == sizes.end()) continue;
-      const bool failed = std::isfinite(r->value(test.result));
+      const bool failed = std::isfinite(r->value_or_nan(test.result));
       const double drop = first_drop(r->table("history"));
       if (!failed) content.finding += unfailed(*r, test, drop);
       const bool same_load = r->text("direction") == main->text("direction");
       if (failed && same_load && (!best || away(*r) < away(*best))) best = r;
       table.rows.push_back({std::string(test.name), count(r->value(quantity::particles)), choice_words(*r, *main),
-                            failed ? number(r->value(test.result), 4) : "not reached",
-                            failed ? with_sign(number(r->value(test.error), 3)) + " %" : "–",
+                            failed ? number(r->value_or_nan(test.result), 4) : "not reached",
+                            failed ? with_sign(number(r->value_or_nan(test.error), 3)) + " %" : "–",
                             std::isfinite(drop) ? number(1e-6 * drop, 4) : "–",
                             number(r->value(quantity::energy_residual), 2)});
     }
     if (best && std::isfinite(published)) {
       nearest.push_back(fmt::format("in {} {} ({} elements, {} %, published {} %)", test.name,
                                     choice_words(*best, *main), count(best->value(quantity::particles)),
-                                    with_sign(number(best->value(test.error), 3)), number(published, 4)));
+                                    with_sign(number(best->value_or_nan(test.error), 3)), number(published, 4)));
     }
   }
   std::ranges::stable_sort(table.rows, [](const auto& a, const auto& b) { return a[0] > b[0]; });
