@@ -34,6 +34,10 @@ Record new_record(const Model& model, const CaseSpec& spec);
 /// the seed.
 Parameters usual_values(std::span<const Parameter> declared, const Scenario& scenario);
 
+/// Throws InputError when a list of a sweep names a value twice: it would make one case, and nobody would be told.
+void refuse_repeated(const Scenario& scenario, std::string_view path, const std::vector<double>& values);
+void refuse_repeated(const Scenario& scenario, std::string_view path, const std::vector<std::string>& values);
+
 /// A value as part of an id: 1.5 is "1_5", "alkali feldspar" is "alkali_feldspar".
 std::string id_part(double value);
 std::string id_part(std::string_view text);

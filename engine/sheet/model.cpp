@@ -21,6 +21,8 @@ std::vector<CaseSpec> cases(const Scenario& s) {
   std::vector<double> spreads = s.reals("sweep.spread");
   const bool swept = !spreads.empty();
   if (!swept) spreads.push_back(s.real("disorder.spread"));
+  refuse_repeated(s, "sweep.spread", s.reals("sweep.spread"));
+  refuse_repeated(s, "solvers", s.texts("solvers"));
   std::vector<CaseSpec> all;
   for (const std::string& solver : s.texts("solvers")) {
     const bool main = solver == s.texts("solvers").front();
@@ -31,11 +33,13 @@ std::vector<CaseSpec> cases(const Scenario& s) {
       std::string id = kind;
       if (swept) id += "_spread_" + id_part(spread);
       if (!main) id += "_" + solver;
-      if (std::ranges::find(all, id, &CaseSpec::id) != all.end()) continue;
-      // A broken file, a map that does not cover the sheet or has too few grains are found before anything runs.
-      if (all.empty() && (settings.source == "file" || settings.expanding > 0)) {
+      // A broken file, a map that does not cover the sheet or has too few grains, and a rule that fits nothing are
+      // found before anything runs.
+      if (all.empty() && (settings.source == "file" || settings.expanding > 0 || !settings.rules.empty())) {
         try {
           (void)make_specimen(settings);
+        } catch (const RuleError& rule) {
+          throw s.error(fmt::format("rule[{}].{}", rule.rule, rule.key), rule.wrong, rule.right());
         } catch (const TooFewInside& few) {
           throw s.error(
               "grains.expanding",
