@@ -50,6 +50,9 @@ void refuse(const Scenario& scenario, std::string_view path, const std::vector<T
 
 }  // namespace
 
+void refuse_repeated(const Scenario& scenario, std::string_view path, const std::vector<std::int64_t>& values) {
+  refuse(scenario, path, values);
+}
 void refuse_repeated(const Scenario& scenario, std::string_view path, const std::vector<double>& values) {
   refuse(scenario, path, values);
 }
@@ -74,7 +77,7 @@ CaseSpec make_case(const Model& model, std::string id, Scenario scenario, Parame
   };
   add(common_keys());
   add(model.keys());
-  CaseSpec spec{std::move(id), std::move(scenario), {}, std::move(parameters)};
+  CaseSpec spec{std::move(id), std::move(scenario), {}, std::move(parameters), 1, {}};
   spec.content = fmt::format("model = {}\nphysics version = {}\nkind = {}\n{}{}", model.name, model.physics_version,
                              fmt::join(kinds, ", "), spec.scenario.canonical(paths), inputs);
   return spec;
