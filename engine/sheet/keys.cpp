@@ -387,7 +387,7 @@ std::string nearest(const std::string& wanted, const std::set<std::string>& valu
 
 [[noreturn]] void no_such(std::size_t rule, const char* key, const std::string& wanted, const std::string& wrong,
                           const std::set<std::string>& known, const std::string& has) {
-  const std::string near = nearest(wanted, known);
+  const std::string near = number_of(wanted) ? "" : nearest(wanted, known);
   throw RuleError(rule, key, wrong, (near.empty() ? "" : "did you mean '" + near + "'? ") + has + listed(known));
 }
 
