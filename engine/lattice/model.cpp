@@ -56,24 +56,27 @@ CaseSpec spec_of(const Scenario& s, const Wanted& w, bool beside) {
 }
 
 std::vector<CaseSpec> cases(const Scenario& s) {
+  refuse_repeated(s, "tests", s.texts("tests"));
+  refuse_repeated(s, "sweep.elements_y", s.integers("sweep.elements_y"));
   std::vector<CaseSpec> all;
-  const auto add = [&](const Wanted& w, bool beside) {
-    CaseSpec spec = spec_of(s, w, beside);
-    if (std::none_of(all.begin(), all.end(), [&](const CaseSpec& c) { return c.id == spec.id; }))
-      all.push_back(std::move(spec));
+  const auto add = [&](const Wanted& w, const std::string& extra) {
+    CaseSpec spec = spec_of(s, w, !extra.empty());
+    if (std::ranges::find(all, spec.id, &CaseSpec::id) != all.end())
+      throw s.error(extra, "the case " + spec.id + " is there already", "give each case once");
+    all.push_back(std::move(spec));
   };
   for (const std::string& test : s.texts("tests")) {
     for (const std::int64_t n : s.integers("sweep.elements_y")) {
       add({test, n, s.text("loading.planes"), s.text("loading.moving"), s.text("loading.direction"),
            s.text("elastic.method")},
-          false);
+          "");
     }
   }
   for (std::size_t i = 0; i < s.count("extra"); ++i) {
     const auto key = [i](const char* name) { return fmt::format("extra[{}].{}", i, name); };
     add({s.text(key("test")), s.integer(key("elements_y")), s.text(key("planes")), s.text(key("moving")),
          s.text(key("direction")), s.text(key("method")), s.real(key("factor")), s.real(key("stiffness"))},
-        true);
+        key("test"));
   }
   if (all.empty())
     throw InputError({s.file(), 0, 0}, "tests", "there is no case", "list at least one test and one block");

@@ -35,7 +35,30 @@ ParameterValue value_of(const Parameter& parameter, const Scenario& scenario) {
   return std::round(scenario.real(parameter.key) / scale * 1e9) / 1e9;
 }
 
+template <class T>
+void refuse(const Scenario& scenario, std::string_view path, const std::vector<T>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::find(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(i), values[i]) ==
+        values.begin() + static_cast<std::ptrdiff_t>(i))
+      continue;
+    throw scenario.error(path,
+                         fmt::format("entries {} and {} of the list are the same",
+                                     1 + std::distance(values.begin(), std::ranges::find(values, values[i])), i + 1),
+                         "name each value once: every one makes a case of its own");
+  }
+}
+
 }  // namespace
+
+void refuse_repeated(const Scenario& scenario, std::string_view path, const std::vector<std::int64_t>& values) {
+  refuse(scenario, path, values);
+}
+void refuse_repeated(const Scenario& scenario, std::string_view path, const std::vector<double>& values) {
+  refuse(scenario, path, values);
+}
+void refuse_repeated(const Scenario& scenario, std::string_view path, const std::vector<std::string>& values) {
+  refuse(scenario, path, values);
+}
 
 const std::string& CaseSpec::test() const {
   const ParameterValue* value = find_value(parameters, "test");
@@ -54,7 +77,7 @@ CaseSpec make_case(const Model& model, std::string id, Scenario scenario, Parame
   };
   add(common_keys());
   add(model.keys());
-  CaseSpec spec{std::move(id), std::move(scenario), {}, std::move(parameters)};
+  CaseSpec spec{std::move(id), std::move(scenario), {}, std::move(parameters), 1, {}};
   spec.content = fmt::format("model = {}\nphysics version = {}\nkind = {}\n{}{}", model.name, model.physics_version,
                              fmt::join(kinds, ", "), spec.scenario.canonical(paths), inputs);
   return spec;

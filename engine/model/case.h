@@ -1,8 +1,10 @@
 #pragma once
 // One case: one specimen in one test. Its identity is its parameters; its id is a name for folders and is never read
 // back. Its content is the text of everything that its record depends on, by what the keys declare (Key::affects).
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/core/record.h"
@@ -18,6 +20,7 @@ struct CaseSpec {
   std::string content;    ///< canonical text of everything the result depends on, seed and physics version included
   Parameters parameters;  ///< "test" first
   int threads = 1;        ///< that serve it better than a case beside it serves the study (a case that fills the cache)
+  std::vector<std::pair<std::string, std::string>> idle = {};  ///< keys that it does not use though it might: path, why
 
   [[nodiscard]] const std::string& test() const;  ///< the parameter "test"
 };
@@ -33,6 +36,11 @@ Record new_record(const Model& model, const CaseSpec& spec);
 /// The value that each declared parameter has in the scenario where no case says otherwise, in the parameter's unit; but for
 /// the seed.
 Parameters usual_values(std::span<const Parameter> declared, const Scenario& scenario);
+
+/// Throws InputError when a list of a sweep names a value twice: it would make one case, and nobody would be told.
+void refuse_repeated(const Scenario& scenario, std::string_view path, const std::vector<std::int64_t>& values);
+void refuse_repeated(const Scenario& scenario, std::string_view path, const std::vector<double>& values);
+void refuse_repeated(const Scenario& scenario, std::string_view path, const std::vector<std::string>& values);
 
 /// A value as part of an id: 1.5 is "1_5", "alkali feldspar" is "alkali_feldspar".
 std::string id_part(double value);

@@ -131,6 +131,18 @@ std::string Scenario::canonical() const {
   return text;
 }
 
+std::string Scenario::line(std::string_view path) const { return line_of(std::string(path), entry(path).value); }
+
+std::vector<std::pair<std::string, const Key*>> Scenario::given_keys(std::span<const Key> declared) const {
+  std::vector<std::pair<std::string, const Key*>> given;
+  for (const auto& [path, entry] : entries_) {
+    if (!entry.given) continue;
+    const auto key = std::ranges::find(declared, scenario_detail::pattern_of(path), &Key::path);
+    if (key != declared.end()) given.emplace_back(path, &*key);
+  }
+  return given;
+}
+
 std::string Scenario::canonical(std::span<const std::string> declared) const {
   std::string text;
   for (const auto& [path, entry] : entries_) {

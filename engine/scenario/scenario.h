@@ -19,6 +19,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -94,7 +95,10 @@ class Scenario {
   /// mineral), sorted by path, one "path = value" a line, doubles in shortest round-trip form. The content of a case is made
   /// of this.
   [[nodiscard]] std::string canonical(std::span<const std::string> declared) const;
-  [[nodiscard]] std::string canonical() const;  ///< of all values
+  [[nodiscard]] std::string canonical() const;                  ///< of all values
+  [[nodiscard]] std::string line(std::string_view path) const;  ///< that of one value
+  /// What the user wrote of these keys: paths ("mineral[0].share") and their declarations.
+  [[nodiscard]] std::vector<std::pair<std::string, const Key*>> given_keys(std::span<const Key> declared) const;
 
  private:
   struct Entry {

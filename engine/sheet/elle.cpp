@@ -39,17 +39,24 @@ std::string shown(std::string_view word) {
   return word.size() > 40 ? text + "..." : text;
 }
 
+// The first word alone decides: names of columns may follow.
 bool is_section(const Words& words) {
-  if (words.size() != 1 || !(words[0][0] >= 'A' && words[0][0] <= 'Z')) return false;
+  if (!(words[0][0] >= 'A' && words[0][0] <= 'Z')) return false;
   return std::all_of(words[0].begin(), words[0].end(),
                      [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; });
 }
 
-// Values of flynns; sections of nodes (CONC_A, ...) and of unodes (U_...) are not for this program.
+std::string text_of(const Words& words, std::size_t first) {
+  std::string text;
+  for (std::size_t i = first; i < words.size(); ++i) text += (i > first ? " " : "") + std::string(words[i]);
+  return text;
+}
+
+// Values of flynns; sections of nodes (CONC_A, ...) and of segments are not for this program.
 bool is_flynn_attribute(std::string_view name) {
-  static constexpr std::string_view known[] = {"MINERAL",   "EXPAND",  "VISCOSITY", "ENERGY", "AGE",
-                                               "GRAIN",     "SPLIT",   "COLOUR",    "CAXIS",  "EULER_3",
-                                               "DISLOCDEN", "PARENTS", "S_LOCATION"};
+  static constexpr std::string_view known[] = {"MINERAL",   "EXPAND",  "VISCOSITY",  "ENERGY",       "AGE",
+                                               "GRAIN",     "SPLIT",   "COLOUR",     "CAXIS",        "EULER_3",
+                                               "DISLOCDEN", "PARENTS", "S_EXPONENT", "FLYNN_STRAIN", "FLYNN_STRESS"};
   return std::find(std::begin(known), std::end(known), name) != std::end(known) || name.starts_with("F_ATTRIB_");
 }
 
@@ -63,19 +70,19 @@ class Reader {
     while (have) {
       if (!is_section(words)) {
         fail(fmt::format("'{}' stands outside every section", shown(words[0])),
-             "a section begins with its name in capitals alone on a line, like FLYNNS");
+             "a section begins with its name in capitals at the start of a line, like FLYNNS");
       }
-      section_ = std::string(words[0]);
-      if (!seen_.insert(section_).second) fail(fmt::format("section {} is given twice", section_), "give it once");
+      section_ = words[0] == "REGIONS" ? "FLYNNS" : std::string(words[0]);  // its name in early files
+      const bool again = !seen_.insert(section_).second;
+      if (again && (section_ == "OPTIONS" || section_ == "FLYNNS" || section_ == "LOCATION"))
+        fail(fmt::format("section {} is given twice", section_), "give it once");
       if (section_ == "OPTIONS")
         have = options(words);
       else if (section_ == "FLYNNS")
         have = flynns(words);
       else if (section_ == "LOCATION")
         have = locations(words);
-      else if (section_ == "UNODES")
-        have = unodes(words);
-      else if (is_flynn_attribute(section_))
+      else if (section_ == "UNODES" || section_.starts_with("U_") || is_flynn_attribute(section_))
         have = attribute(words);
       else
         have = skip(words);
@@ -100,20 +107,23 @@ class Reader {
   [[noreturn]] void fail(const std::string& wrong, std::string right, int line = 0) const {
     throw InputError({map_.source, line > 0 ? line : line_, 0}, section_, wrong, std::move(right));
   }
+  static bool whole(std::string_view word, int& value) {
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return error == std::errc{} && end == word.data() + word.size() && value >= 0;
+  }
+  static bool real(std::string_view word, double& value) {
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return error == std::errc{} && end == word.data() + word.size() && std::isfinite(value);
+  }
   int integer(std::string_view word) const {
     int value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc{} || end != word.data() + word.size() || value < 0) {
+    if (!whole(word, value))
       fail(fmt::format("'{}' is no id or count", shown(word)), "a whole number from 0 up is needed here");
-    }
     return value;
   }
   double number(std::string_view word) const {
     double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) {
-      fail(fmt::format("'{}' is no number", shown(word)), "a finite number is needed here");
-    }
+    if (!real(word, value)) fail(fmt::format("'{}' is no number", shown(word)), "a finite number is needed here");
     return value;
   }
 
@@ -121,9 +131,11 @@ class Reader {
     while (next(words)) {
       if (is_section(words)) return true;
       if (words[0] != "CellBoundingBox") {
-        std::string value;
-        for (std::size_t i = 1; i < words.size(); ++i) value += (i > 1 ? " " : "") + std::string(words[i]);
-        map_.options.emplace_back(words[0], value);
+        map_.options.emplace_back(words[0], text_of(words, 1));
+        if (words[0] == "SimpleShearOffset" && words.size() > 1) {
+          offset_ = number(words[1]);
+          offset_line_ = line_;
+        }
         continue;
       }
       std::vector<double> numbers;
@@ -140,14 +152,36 @@ class Reader {
   void box(const std::vector<double>& n) {
     map_.low = {n[0], n[1]};
     map_.high = {n[4], n[5]};
-    const double w = n[4] - n[0], h = n[5] - n[1], off = 1e-9 * (std::fabs(w) + std::fabs(h));
-    const bool square = std::fabs(n[2] - n[4]) <= off && std::fabs(n[3] - n[1]) <= off &&
-                        std::fabs(n[6] - n[0]) <= off && std::fabs(n[7] - n[5]) <= off;
-    if (!(w > 0) || !(h > 0) || !square) {
-      fail("CellBoundingBox is no upright rectangle",
-           "corners go lower left, lower right, upper right, upper left, without shear");
+    const double h = n[5] - n[1], w = n[2] - n[0];
+    const double off = 1e-9 * (std::fabs(w) + std::fabs(h));
+    const bool level = std::fabs(n[3] - n[1]) <= off && std::fabs(n[7] - n[5]) <= off &&
+                       std::fabs((n[4] - n[6]) - w) <= off + 1e-6 * std::fabs(w);
+    if (!(w > 0) || !(h > 0) || !level) {
+      fail("CellBoundingBox is no cell between a level bottom and a level top of the same width",
+           "corners go lower left, lower right, upper right, upper left; only the top may be moved sideways");
     }
+    if (std::fabs(n[4] - n[2]) > off) {
+      map_.high[0] = n[2];
+      map_.shear = n[6] - n[0];
+    }
+    map_.box_line = line_;
     box_ = true;
+  }
+  // Moved by whole widths the top meets itself, so that Elle's files keep the rest.
+  void shear() {
+    const double width = map_.high[0] - map_.low[0];
+    const auto rest = [&](double moved) {
+      moved -= width * std::round(moved / width);
+      return std::fabs(moved) < 1e-9 * width ? 0.0 : moved;
+    };
+    const double drawn = rest(map_.shear), said = rest(offset_);
+    map_.shear = drawn != 0 ? drawn : said;
+    if (drawn != 0 && offset_line_ > 0 && std::fabs(rest(drawn - said)) > 1e-4 * width) {
+      map_.notes.push_back(
+          fmt::format("The corners of CellBoundingBox in {} are sheared by {:g}, SimpleShearOffset "
+                      "says {:g}: the corners are taken.",
+                      map_.source, drawn, offset_));
+    }
   }
   bool flynns(Words& words) {
     while (next(words)) {
@@ -179,30 +213,53 @@ class Reader {
     }
     return false;
   }
-  bool unodes(Words& words) {
-    while (next(words)) {
-      if (is_section(words)) return true;
-      ++map_.unodes;
-    }
-    return false;
+  // Values that cannot be read are no reason to refuse a map that nobody asks for them.
+  static void fault(ElleAttribute& a, int line, std::string wrong, std::string right) {
+    if (a.faults++ > 0) return;
+    a.fault_line = line;
+    a.fault = std::move(wrong);
+    a.remedy = std::move(right);
   }
   bool attribute(Words& words) {
-    ElleAttribute found{section_, "", {}};
+    ElleAttribute found;
+    found.name = section_;
+    const bool places = section_ == "UNODES";
+    found.of_unodes = places || section_.starts_with("U_");
+    for (std::size_t i = 1; i < words.size(); ++i) found.columns.emplace_back(words[i]);
+    const char* const what = found.of_unodes ? "unode" : "flynn";
+    const int begin = line_;
     bool more = false;
     std::set<int> ids;
     while ((more = next(words)) && !is_section(words)) {
-      std::string value;
-      for (std::size_t i = 1; i < words.size(); ++i) value += (i > 1 ? " " : "") + std::string(words[i]);
-      if (value.empty())
-        fail(fmt::format("'{}' has no value", shown(words[0])), "a line holds a flynn id, or Default, and a value");
-      if (words[0] == "Default") {
+      Point place{};
+      const std::size_t first = places ? 3 : 1;  // a unode's place comes before its values
+      const std::string value = text_of(words, first);
+      if (!places && value.empty()) {
+        fault(found, line_, fmt::format("'{}' has no value", shown(words[0])),
+              fmt::format("a line holds a {} id, or Default, and a value", what));
+        continue;
+      }
+      if (!places && words[0] == "Default") {
         found.standard = value;
         continue;
       }
-      const int id = integer(words[0]);
-      if (!ids.insert(id).second) fail(fmt::format("flynn {} has two values", id), "give one value a flynn");
-      places_.push_back({section_, id, line_});
-      found.values.emplace_back(id, value);
+      int id = 0;
+      if (!whole(words[0], id)) {
+        fault(found, line_, fmt::format("'{}' is no id", shown(words[0])), "a whole number from 0 up is needed here");
+      } else if (!ids.insert(id).second) {
+        fault(found, line_, fmt::format("{} {} has two values", what, id), fmt::format("give one line a {}", what));
+      } else if (places && (words.size() < 3 || !real(words[1], place[0]) || !real(words[2], place[1]))) {
+        fault(found, line_, fmt::format("unode {} has no place", id), "a line holds id, x and y, and its values");
+      } else {
+        if (places) map_.unodes.push_back({id, place});
+        if (!value.empty()) found.values.emplace_back(id, value);
+        lines_[found.name].push_back(line_);
+      }
+    }
+    for (ElleAttribute& a : map_.attributes) {
+      if (a.name != found.name) continue;
+      fault(a, begin, fmt::format("section {} is given twice", a.name), "give it once");
+      return more;
     }
     map_.attributes.push_back(std::move(found));
     return more;
@@ -233,32 +290,54 @@ class Reader {
              "every node of an outline needs a place", flynn.line);
       }
     }
-    for (const auto& place : places_) {
-      if (flynn_ids_.contains(place.id)) continue;
-      section_ = place.section;
-      fail(fmt::format("there is no flynn {}", place.id), "values are for flynns listed under FLYNNS", place.line);
-    }
-    if (map_.unodes > 0) {
-      map_.notes.push_back(fmt::format("{} unodes of {} were counted and left out.", map_.unodes, map_.source));
+    shear();
+    check_attributes();
+  }
+  void check_attributes() {
+    std::set<int> unodes;
+    for (const auto& unode : map_.unodes) unodes.insert(unode.id);
+    for (ElleAttribute& a : map_.attributes) {
+      const std::set<int>& known = a.of_unodes ? unodes : flynn_ids_;
+      std::size_t kept = 0;
+      for (std::size_t i = 0; i < a.values.size(); ++i) {
+        if (a.name == "UNODES" || known.contains(a.values[i].first)) {
+          std::swap(a.values[kept++], a.values[i]);
+          continue;
+        }
+        fault(a, lines_[a.name][i],
+              fmt::format("there is no {} {}", a.of_unodes ? "unode" : "flynn", a.values[i].first),
+              a.of_unodes ? "values are for unodes listed under UNODES" : "values are for flynns listed under FLYNNS");
+      }
+      a.values.resize(kept);
+      if (a.faults == 0) continue;
+      map_.notes.push_back(
+          fmt::format("Section {} of {}: {} of its lines cannot be read, the first is line {} ({}). "
+                      "Nothing here uses its values.",
+                      a.name, map_.source, a.faults, a.fault_line, a.fault));
     }
   }
 
-  struct Place {
-    std::string section;
-    int id, line;
-  };
   std::string_view text_;
   std::size_t at_ = 0;
   int line_ = 0;
   std::string section_;
   std::set<std::string> seen_;
   std::set<int> flynn_ids_;
-  std::vector<Place> places_;
+  std::map<std::string, std::vector<int>> lines_;  // of values, by section
   bool box_ = false;
+  double offset_ = 0;
+  int offset_line_ = 0;
   ElleMap map_;
 };
 
 }  // namespace
+
+std::string ElleColumn::part(std::string_view value) const {
+  if (column < 0) return std::string(value);
+  const Words words = split(value);
+  const auto at = static_cast<std::size_t>(column);
+  return at < words.size() ? std::string(words[at]) : std::string();
+}
 
 std::string ElleMap::attribute(std::string_view name, std::size_t index) const {
   for (const auto& a : attributes) {
@@ -269,6 +348,45 @@ std::string ElleMap::attribute(std::string_view name, std::size_t index) const {
     return a.standard;
   }
   return {};
+}
+
+namespace {
+
+// Calls visit(name, column) for each name that the values of a section go by.
+template <class Visit>
+void each_name(const ElleAttribute& a, Visit visit) {
+  const bool places = a.name == "UNODES";
+  if (!places) visit(a.name, -1);
+  if (!places && a.columns.size() < 2) return;
+  for (std::size_t c = 0; c < a.columns.size(); ++c)
+    visit(places ? a.columns[c] : a.name + "." + a.columns[c], static_cast<int>(c));
+}
+
+}  // namespace
+
+ElleColumn ElleMap::find(std::string_view name) const {
+  ElleColumn found;
+  for (const bool of_unodes : {false, true}) {
+    for (const ElleAttribute& a : attributes) {
+      if (a.of_unodes != of_unodes || found) continue;
+      each_name(a, [&](const std::string& known, int column) {
+        if (!found && known == name) found = {&a, column};
+      });
+    }
+  }
+  if (found && found.section->faults > 0) {
+    const ElleAttribute& a = *found.section;
+    throw InputError({source, a.fault_line, 0}, a.name, a.fault, a.remedy);
+  }
+  return found;
+}
+
+std::vector<std::string> ElleMap::attribute_names() const {
+  std::vector<std::string> names;
+  for (const ElleAttribute& a : attributes) {
+    each_name(a, [&](const std::string& name, int) { names.push_back(name); });
+  }
+  return names;
 }
 
 ElleMap parse_elle(std::string_view text, const std::string& name) { return Reader(text, name).read(); }
@@ -289,7 +407,7 @@ std::string elle_text(const ElleMap& map) {
   std::string out = "# Grain map\nOPTIONS\n";
   out += fmt::format("CellBoundingBox {} {}\n", map.low[0], map.low[1]);
   out += fmt::format("                {} {}\n                {} {}\n                {} {}\n", map.high[0], map.low[1],
-                     map.high[0], map.high[1], map.low[0], map.high[1]);
+                     map.high[0] + map.shear, map.high[1], map.low[0] + map.shear, map.high[1]);
   for (const auto& [name, value] : map.options) out += name + " " + value + "\n";
   out += "FLYNNS\n";
   for (const auto& flynn : map.flynns) {
@@ -297,13 +415,33 @@ std::string elle_text(const ElleMap& map) {
     for (const int node : flynn.nodes) out += fmt::format(" {}", node);
     out += "\n";
   }
-  for (const auto& a : map.attributes) {
-    out += a.name + "\n";
+  const auto section = [&](const ElleAttribute& a) {
+    out += a.name;
+    for (const std::string& column : a.columns) out += " " + column;
+    out += "\n";
     if (!a.standard.empty()) out += "Default " + a.standard + "\n";
+  };
+  for (const auto& a : map.attributes) {
+    if (a.of_unodes) continue;
+    section(a);
     for (const auto& [id, value] : a.values) out += fmt::format("{} {}\n", id, value);
   }
   out += "LOCATION\n";
   for (const auto& node : map.nodes) out += fmt::format("{} {} {}\n", node.id, node.place[0], node.place[1]);
+  for (const auto& a : map.attributes) {
+    if (!a.of_unodes) continue;
+    section(a);
+    const std::map<int, std::string> values(a.values.begin(), a.values.end());
+    if (a.name != "UNODES") {
+      for (const auto& [id, value] : a.values) out += fmt::format("{} {}\n", id, value);
+      continue;
+    }
+    for (const auto& unode : map.unodes) {
+      const auto value = values.find(unode.id);
+      out += fmt::format("{} {} {}{}\n", unode.id, unode.place[0], unode.place[1],
+                         value == values.end() ? "" : " " + value->second);
+    }
+  }
   return out;
 }
 
@@ -317,12 +455,22 @@ std::vector<Point> outline(const ElleMap& map, std::size_t index) {
   const Point size{map.high[0] - map.low[0], map.high[1] - map.low[1]};
   const auto nearest = [&](const Point& to, const Point& from) {
     Point p = to;
-    for (std::size_t q = 0; q < 2; ++q) p[q] -= size[q] * std::round((p[q] - from[q]) / size[q]);
+    const double up = std::round((p[1] - from[1]) / size[1]);
+    p[1] -= size[1] * up;
+    p[0] -= map.shear * up;
+    p[0] -= size[0] * std::round((p[0] - from[0]) / size[0]);
     return p;
   };
   std::vector<Point> points;
   for (const int id : flynn.nodes) {
     const Point& place = places.at(id);
+    for (std::size_t q = 0; q < 2; ++q) {
+      if (std::fabs(place[q] - map.low[q]) < 100 * size[q]) continue;
+      throw InputError(
+          {map.source, flynn.line, 0}, "FLYNNS",
+          fmt::format("node {} of flynn {} lies at {:g}, {:g}, far outside the cell", id, flynn.id, place[0], place[1]),
+          "nodes lie in the cell of CellBoundingBox, or one cell beside it");
+    }
     points.push_back(points.empty() ? place : nearest(place, points.back()));
   }
   const Point closed = nearest(points.front(), points.back());

@@ -275,28 +275,106 @@ void mark_expanding(ElleMap& map, int count, const std::string& mineral, std::ui
   map.attributes.push_back(std::move(kind));
 }
 
+namespace {
+
+// Which way round the outlines of grains run; one that runs the other way is the outside.
+enum class Sense { counter_clockwise, clockwise, either };
+
+double area_of(double signed_area, Sense sense, double cell) {
+  if (sense == Sense::either) return std::fabs(signed_area);
+  const double inner = sense == Sense::clockwise ? -signed_area : signed_area;
+  return inner >= 0 ? inner : cell + inner;
+}
+
+// Elle's files run counter-clockwise, those made of pictures may run clockwise, those made by hand any way: the sense
+// by which the flynns fill the cell is the one that is meant.
+Sense sense_of(const std::vector<double>& areas, double cell) {
+  const auto missed = [&](Sense sense) {
+    double total = 0;
+    for (const double a : areas) total += area_of(a, sense, cell);
+    return std::fabs(total / cell - 1);
+  };
+  const bool all_clockwise = std::all_of(areas.begin(), areas.end(), [](double a) { return a < 0; });
+  Sense best = all_clockwise ? Sense::clockwise : Sense::counter_clockwise;
+  if (all_clockwise || missed(best) < 0.01) return best;
+  for (const Sense other : {Sense::clockwise, Sense::either}) {
+    if (missed(other) < 0.01) return other;
+  }
+  return best;
+}
+
+// Calls visit(row, first column, end column) for the particles inside any image of an outline.
+template <class Visit>
+void scan_images(const ElleMap& map, const Outline& cell, const Sheet& sheet, Visit visit) {
+  const double width = map.high[0] - map.low[0], height = map.high[1] - map.low[1];
+  Point low = cell.front(), high = low;
+  for (const Point& p : cell) {
+    for (std::size_t q = 0; q < 2; ++q) low[q] = std::min(low[q], p[q]), high[q] = std::max(high[q], p[q]);
+  }
+  const double top = width * (sheet.y.back() + sheet.radius0);
+  const auto first = [](double from, double step) { return static_cast<int>(std::floor(from / step)); };
+  const auto last = [](double to, double step) { return static_cast<int>(std::ceil(to / step)); };
+  for (int sy = first(map.low[1] - high[1], height); sy <= last(map.low[1] + top - low[1], height); ++sy) {
+    const double moved = sy * map.shear;
+    for (int sx = first(map.low[0] - high[0] - moved, width); sx <= last(map.high[0] - low[0] - moved, width); ++sx) {
+      Outline image = cell;
+      for (Point& p : image) p[0] += sx * width + moved, p[1] += sy * height;
+      scan(image, sheet, map.low[0], map.low[1], width, visit);
+    }
+  }
+}
+
+[[noreturn]] void refuse(const ElleMap& map, std::size_t flynn, const std::string& wrong, const char* right) {
+  throw InputError({map.source, map.flynns[flynn].line, 0}, "FLYNNS", wrong, right);
+}
+
+std::size_t most(const std::vector<int>& counts) {
+  return static_cast<std::size_t>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+}
+
+}  // namespace
+
 Cover cover(const ElleMap& map, const Sheet& sheet) {
   const double width = map.high[0] - map.low[0], height = map.high[1] - map.low[1];
-  const double scale = width;
+  const std::size_t flynns = map.flynns.size();
+  std::vector<Outline> outlines;
+  std::vector<double> areas;
+  for (std::size_t f = 0; f < flynns; ++f) {
+    outlines.push_back(outline(map, f));
+    areas.push_back(area(outlines.back()));
+  }
+  const Sense sense = sense_of(areas, width * height);
   Cover result;
   result.flynn.assign(static_cast<std::size_t>(sheet.particles()), -1);
   std::vector<std::uint8_t> times(result.flynn.size(), 0);
+  std::vector<std::uint8_t> inside;
+  std::vector<int> doubled(flynns, 0);
+  std::vector<std::int32_t> under(flynns, -1);
   double total = 0;
-  for (std::size_t f = 0; f < map.flynns.size(); ++f) {
-    const Outline cell = outline(map, f);
-    total += std::fabs(area(cell));
-    for (int sx = -1; sx <= 1; ++sx) {
-      for (int sy = -1; sy <= 1; ++sy) {
-        Outline image = cell;
-        for (Point& p : image) p[0] += sx * width, p[1] += sy * height;
-        scan(image, sheet, map.low[0], map.low[1], scale, [&](int row, int begin, int end) {
-          for (int c = begin; c < end; ++c) {
-            const auto i = static_cast<std::size_t>(row * sheet.lattice.columns + c);
-            if (times[i] == 0) result.flynn[i] = static_cast<std::int32_t>(f);
-            if (times[i] < 2) ++times[i];
-          }
-        });
+  for (std::size_t f = 0; f < flynns; ++f) {
+    total += area_of(areas[f], sense, width * height);
+    const auto take = [&](std::size_t i) {
+      if (times[i] == 0) {
+        result.flynn[i] = static_cast<std::int32_t>(f);
+      } else {
+        ++doubled[f];
+        under[f] = result.flynn[i];
       }
+      if (times[i] < 2) ++times[i];
+    };
+    const bool outside = sense == Sense::clockwise ? areas[f] > 0 : sense != Sense::either && areas[f] < 0;
+    if (outside) inside.assign(times.size(), 0);
+    scan_images(map, outlines[f], sheet, [&](int row, int begin, int end) {
+      for (int c = begin; c < end; ++c) {
+        const auto i = static_cast<std::size_t>(row * sheet.lattice.columns + c);
+        if (outside)
+          inside[i] = 1;
+        else
+          take(i);
+      }
+    });
+    for (std::size_t i = 0; outside && i < times.size(); ++i) {
+      if (!inside[i]) take(i);
     }
   }
   for (const auto t : times) {
@@ -304,18 +382,92 @@ Cover cover(const ElleMap& map, const Sheet& sheet) {
     if (t > 1) ++result.overlaps;
   }
   result.area_share = total / (width * height);
-  if (2 * result.holes > sheet.particles()) {
-    throw InputError(
-        {map.source, 0, 0}, "FLYNNS",
-        fmt::format("the grains cover only {} of {} particles", sheet.particles() - result.holes, sheet.particles()),
-        "the outlines should fill the cell");
+  const int allowed = std::max(2, sheet.particles() / 100);
+  const auto share = [&](int count) { return 100.0 * count / sheet.particles(); };
+  if (result.overlaps > allowed) {
+    const std::size_t f = most(doubled);
+    const auto& other = map.flynns[static_cast<std::size_t>(under[f])];
+    refuse(map, f,
+           fmt::format("{:.2g} % of the cell lie in more than one flynn, most of them in flynn {} and in flynn {} of "
+                       "line {}",
+                       share(result.overlaps), map.flynns[f].id, other.id, other.line),
+           "outlines meet and do not overlap; the outline round a hole runs the other way round");
   }
+  if (result.holes == sheet.particles()) refuse(map, 0, "no flynn covers any part of the cell", "outlines fill it");
+  const bool many = result.holes > allowed;
+  const std::vector<std::int32_t> before = result.flynn;
   if (result.holes > 0) fill_holes(result.flynn, sheet.lattice);
+  if (many) {
+    std::vector<int> filled(flynns, 0);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      if (before[i] < 0) ++filled[static_cast<std::size_t>(result.flynn[i])];
+    }
+    const std::size_t f = most(filled);
+    refuse(map, f,
+           fmt::format("{:.2g} % of the cell lie in no flynn, most of them beside flynn {}", share(result.holes),
+                       map.flynns[f].id),
+           "the outlines fill the cell");
+  }
   return result;
 }
 
+std::vector<std::int32_t> nearest_unodes(const ElleMap& map, const Sheet& sheet) {
+  const double width = map.high[0] - map.low[0], height = map.high[1] - map.low[1];
+  const double top = width * (sheet.y.back() + sheet.radius0);
+  // Unodes and their images in and round the sheet's box, in buckets of about one unode each.
+  const double margin = 0.5 * std::max(width, height);
+  const Point low{map.low[0] - margin, map.low[1] - margin}, high{map.high[0] + margin, map.low[1] + top + margin};
+  const double side = std::sqrt(width * height / static_cast<double>(map.unodes.size()));
+  const int nx = 1 + static_cast<int>((high[0] - low[0]) / side), ny = 1 + static_cast<int>((high[1] - low[1]) / side);
+  const auto bucket = [&](double at, double from, int n) {
+    return std::clamp(static_cast<int>((at - from) / side), 0, n - 1);
+  };
+  struct Image {
+    Point place;
+    std::int32_t unode;
+  };
+  std::vector<std::vector<Image>> buckets(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
+  for (std::size_t u = 0; u < map.unodes.size(); ++u) {
+    const Point& p = map.unodes[u].place;
+    const auto lowest = std::ceil((low[1] - p[1]) / height), highest = std::floor((high[1] - p[1]) / height);
+    for (double sy = lowest; sy <= highest; ++sy) {
+      const double y = p[1] + sy * height, x = p[0] + sy * map.shear;
+      for (double sx = std::ceil((low[0] - x) / width); sx <= std::floor((high[0] - x) / width); ++sx) {
+        const Point at{x + sx * width, y};
+        const auto b = static_cast<std::size_t>(bucket(at[1], low[1], ny)) * static_cast<std::size_t>(nx) +
+                       static_cast<std::size_t>(bucket(at[0], low[0], nx));
+        buckets[b].push_back({at, static_cast<std::int32_t>(u)});
+      }
+    }
+  }
+  std::vector<std::int32_t> nearest;
+  nearest.reserve(static_cast<std::size_t>(sheet.particles()));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(sheet.particles()); ++i) {
+    const double x = map.low[0] + width * (sheet.x[i] - 0.5 * sheet.radius0), y = map.low[1] + width * sheet.y[i];
+    const int bx = bucket(x, low[0], nx), by = bucket(y, low[1], ny);
+    double best = std::numeric_limits<double>::infinity();
+    std::int32_t found = -1;
+    for (int ring = 0; ring <= std::max(nx, ny) && (ring - 1) * side <= best; ++ring) {
+      for (int iy = std::max(0, by - ring); iy <= std::min(ny - 1, by + ring); ++iy) {
+        const bool edge = iy == by - ring || iy == by + ring;
+        for (int ix = bx - ring; ix <= bx + ring; ix += edge || ring == 0 ? 1 : 2 * ring) {
+          if (ix < 0 || ix >= nx) continue;
+          for (const Image& image :
+               buckets[static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(ix)]) {
+            const double distance = std::hypot(image.place[0] - x, image.place[1] - y);
+            if (distance < best || (distance == best && image.unode < found)) best = distance, found = image.unode;
+          }
+        }
+      }
+    }
+    nearest.push_back(found);
+  }
+  return nearest;
+}
+
 void apply_disorder(Sheet& sheet, const Cover& cover, const std::vector<GrainProperties>& grains,
-                    const DisorderSettings& settings, std::uint64_t seed) {
+                    const DisorderSettings& settings, std::uint64_t seed,
+                    const std::vector<GrainProperties>& particles) {
   RandomStream constants(seed, Purpose::sheet_grain_stiffness), thresholds(seed, Purpose::sheet_spring_thresholds);
   std::vector<double> stiffness;
   for (const GrainProperties& grain : grains) {
@@ -329,13 +481,15 @@ void apply_disorder(Sheet& sheet, const Cover& cover, const std::vector<GrainPro
     const auto k = static_cast<std::size_t>(slot);
     const double draw = thresholds.uniform(1 - settings.strength_spread, 1 + settings.strength_spread);
     if (sheet.stiffness[k] <= 0) continue;
-    const auto a = static_cast<std::size_t>(cover.flynn[static_cast<std::size_t>(sheet.first(slot))]);
-    const auto b = static_cast<std::size_t>(cover.flynn[static_cast<std::size_t>(sheet.second(slot))]);
+    const auto i = static_cast<std::size_t>(sheet.first(slot)), j = static_cast<std::size_t>(sheet.second(slot));
+    const auto a = static_cast<std::size_t>(cover.flynn[i]), b = static_cast<std::size_t>(cover.flynn[j]);
     sheet.stiffness[k] *= 0.5 * (stiffness[a] + stiffness[b]);
+    if (!particles.empty()) sheet.stiffness[k] *= 0.5 * (particles[i].stiffness + particles[j].stiffness);
     sheet.between[k] = a != b ? 1 : 0;
     if (along_wall(sheet, slot)) continue;
     sheet.threshold[k] =
         settings.strength * draw * 0.5 * (grains[a].strength + grains[b].strength) * (a != b ? settings.boundary : 1.0);
+    if (!particles.empty()) sheet.threshold[k] *= 0.5 * (particles[i].strength + particles[j].strength);
   }
 }
 

@@ -32,15 +32,19 @@ struct TooFewInside : InputError {
 /// Marks `count` grains away from the box's edge, drawn at random, as expanding (EXPAND 1, MINERAL `mineral`).
 void mark_expanding(ElleMap& map, int count, const std::string& mineral, std::uint64_t seed);
 
-/// Which flynn holds each particle. The sheet's box is laid over the cell, width on width.
+/// Which flynn holds each particle. The sheet's box is laid over the cell, width on width; past its edges the map goes
+/// on as the cell repeats. An outline that runs the other way round than the others is the outside: its flynn is what
+/// lies round it, a matrix round a grain.
 struct Cover {
   std::vector<std::int32_t> flynn;  ///< index into ElleMap::flynns
   int holes = 0;                    ///< particles in no flynn; they take the grain of their nearest covered neighbour
   int overlaps = 0;                 ///< particles in more than one; they keep the first
   double area_share = 0;            ///< area of all flynns over the cell's
 };
-/// Throws InputError when the map covers less than half of the sheet.
+/// Throws InputError, with flynn and line, when more than 1 % of the sheet lies in no flynn or in more than one.
 Cover cover(const ElleMap& map, const Sheet& sheet);
+/// The unode nearest to each particle, as the cell repeats: an index into ElleMap::unodes. The map has unodes.
+std::vector<std::int32_t> nearest_unodes(const ElleMap& map, const Sheet& sheet);
 
 /// What a grain is made of, relative to the sheet's standard.
 struct GrainProperties {
@@ -60,7 +64,9 @@ struct DisorderSettings {
 /// Draws one elastic constant a grain (Gauss; draws below a fifth of the mean are drawn again) and one threshold a
 /// spring (uniform), each from its own stream. Springs between grains have the mean constant and the boundary's
 /// threshold; springs along walls never break. Keeps the weights that make_sheet gave to springs along walls.
+/// `particles` are factors on top of those of the grains, one a particle; empty: none.
 void apply_disorder(Sheet& sheet, const Cover& cover, const std::vector<GrainProperties>& grains,
-                    const DisorderSettings& settings, std::uint64_t seed);
+                    const DisorderSettings& settings, std::uint64_t seed,
+                    const std::vector<GrainProperties>& particles = {});
 
 }  // namespace dem::sheet

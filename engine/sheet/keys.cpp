@@ -3,11 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
 #include <numbers>
+#include <optional>
+#include <set>
+
+#include "engine/scenario/suggest.h"
 
 namespace dem::sheet {
 namespace {
+
+constexpr int most_rows = 4000;
 
 std::vector<Key> declare() {
   return {
@@ -21,7 +31,7 @@ std::vector<Key> declare() {
       {.path = "sheet.rows",
        .type = KeyType::integer,
        .low = 0,
-       .high = 4000,
+       .high = most_rows,
        .standard = "0",
        .affects = Affects::specimen,
        .help = "rows of particles; 0: as many as make the box nearest to square"},
@@ -95,11 +105,11 @@ std::vector<Key> declare() {
       {.path = "rule[].attribute",
        .type = KeyType::text,
        .affects = Affects::specimen,
-       .help = "attribute of the grain map, like MINERAL"},
+       .help = "attribute of the grain map, like MINERAL, AGE.CYCLE (a column), CONC_A (of unodes)"},
       {.path = "rule[].value",
        .type = KeyType::text,
        .affects = Affects::specimen,
-       .help = "grains with this value follow the rule"},
+       .help = "grains (or particles nearest to unodes) with this value follow the rule; numbers in any form"},
       {.path = "rule[].stiffness",
        .low = 1e-6,
        .high = 1e6,
@@ -302,8 +312,8 @@ Settings read_settings(const Scenario& s) {
   r.loading.stop_share = s.real("loading.stop_share");
   r.loading.substeps = static_cast<int>(s.integer("loading.substeps"));
   r.snapshots = s.reals("loading.snapshots");
-  if (!std::is_sorted(r.snapshots.begin(), r.snapshots.end())) {
-    throw s.error("loading.snapshots", "the strains do not rise", "list them in rising order");
+  if (std::adjacent_find(r.snapshots.begin(), r.snapshots.end(), std::greater_equal<>()) != r.snapshots.end()) {
+    throw s.error("loading.snapshots", "the strains do not rise", "list them in rising order, each once");
   }
   if (s.texts("solvers").empty()) throw s.error("solvers", "no solver is named", "write [\"converged\"]");
   r.solver = s.texts("solvers").front();
@@ -320,19 +330,122 @@ Settings read_settings(const Scenario& s) {
       throw s.error("loading.kind", "no grain grows", "give a [[rule]] with growth for the grains that should");
     }
   }
+  const double end = r.loading.steps * r.loading.step;
+  if (!r.snapshots.empty() && r.snapshots.back() > end * (1 + 1e-9)) {
+    throw s.error("loading.snapshots",
+                  fmt::format("the loading ends at a strain of {:g} ({} steps of {:g}), before the snapshot at {:g}",
+                              end, r.loading.steps, r.loading.step, r.snapshots.back()),
+                  "lower the strain or raise loading.steps; the end is always kept");
+  }
   return r;
 }
 
+RuleError::RuleError(std::size_t which, std::string name, const std::string& what, std::string right)
+    : InputError({}, fmt::format("rule[{}].{}", which, name), what, std::move(right)),
+      rule(which),
+      key(std::move(name)),
+      wrong(what) {}
+
+namespace {
+
+std::optional<double> number_of(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return {};
+  return value;
+}
+
+// Numbers are the same however they are written: Elle writes 1.00000000e+00.
+bool follows(const std::string& value, const std::string& wanted) {
+  if (value == wanted) return true;
+  const auto a = number_of(value), b = number_of(wanted);
+  return a && b && *a == *b;
+}
+
+// "QUARTZ, GARNET"; of many numbers their range.
+std::string listed(const std::set<std::string>& values) {
+  if (values.size() <= 12) return fmt::format("{}", fmt::join(values, ", "));
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const std::string& value : values) {
+    const auto number = number_of(value);
+    if (!number) return fmt::format("{}, ... ({} values)", *values.begin(), values.size());
+    low = std::min(low, *number), high = std::max(high, *number);
+  }
+  return fmt::format("{} numbers from {} to {}", values.size(), low, high);
+}
+
+std::string nearest(const std::string& wanted, const std::set<std::string>& values) {
+  const auto capitals = [](std::string text) {
+    for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    return text;
+  };
+  for (const std::string& value : values) {
+    if (capitals(value) == capitals(wanted)) return value;
+  }
+  return closest(wanted, std::vector<std::string>(values.begin(), values.end()));
+}
+
+[[noreturn]] void no_such(std::size_t rule, const char* key, const std::string& wanted, const std::string& wrong,
+                          const std::set<std::string>& known, const std::string& has) {
+  const std::string near = number_of(wanted) ? "" : nearest(wanted, known);
+  throw RuleError(rule, key, wrong, (near.empty() ? "" : "did you mean '" + near + "'? ") + has + listed(known));
+}
+
+// Multiplies the properties of those of `ids` that follow a rule; of flynns or of unodes.
+bool apply_rules(const ElleMap& map, const std::vector<Settings::Rule>& rules, bool unodes, const std::vector<int>& ids,
+                 std::vector<GrainProperties>& result) {
+  bool any = false;
+  for (std::size_t r = 0; r < rules.size(); ++r) {
+    const Settings::Rule& rule = rules[r];
+    const ElleColumn column = map.find(rule.attribute);
+    const std::string source = map.source.empty() ? "the grown map" : map.source;
+    if (!column) {
+      const auto names = map.attribute_names();
+      const std::set<std::string> known(names.begin(), names.end());
+      const std::string wrong = fmt::format("{} has no attribute '{}'", source, rule.attribute);
+      if (known.empty())
+        throw RuleError(r, "attribute", wrong,
+                        "it has none at all: set grains.expanding for grains that are marked, or leave the rule out");
+      no_such(r, "attribute", rule.attribute, wrong, known, "its attributes are ");
+    }
+    if (column.section->of_unodes != unodes) continue;
+    any = true;
+    const std::map<int, std::string> values(column.section->values.begin(), column.section->values.end());
+    std::set<std::string> known;
+    bool followed = false;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      const auto own = values.find(ids[i]);
+      const std::string value = column.part(own == values.end() ? column.section->standard : own->second);
+      if (!value.empty()) known.insert(value);
+      if (!follows(value, rule.value)) continue;
+      followed = true;
+      result[i].stiffness *= rule.properties.stiffness;
+      result[i].strength *= rule.properties.strength;
+      result[i].growth *= rule.properties.growth;
+    }
+    if (followed) continue;
+    const char* const what = unodes ? "unode" : "grain";
+    no_such(r, "value", rule.value, fmt::format("no {} of {} has {} '{}'", what, source, rule.attribute, rule.value),
+            known, "its values are ");
+  }
+  return any;
+}
+
+}  // namespace
+
 std::vector<GrainProperties> properties_of(const ElleMap& map, const std::vector<Settings::Rule>& rules) {
   std::vector<GrainProperties> result(map.flynns.size());
-  for (std::size_t f = 0; f < result.size(); ++f) {
-    for (const auto& rule : rules) {
-      if (map.attribute(rule.attribute, f) != rule.value) continue;
-      result[f].stiffness *= rule.properties.stiffness;
-      result[f].strength *= rule.properties.strength;
-      result[f].growth *= rule.properties.growth;
-    }
-  }
+  std::vector<int> ids;
+  for (const ElleFlynn& flynn : map.flynns) ids.push_back(flynn.id);
+  (void)apply_rules(map, rules, false, ids, result);
+  return result;
+}
+
+std::vector<GrainProperties> unode_properties_of(const ElleMap& map, const std::vector<Settings::Rule>& rules) {
+  std::vector<GrainProperties> result(map.unodes.size());
+  std::vector<int> ids;
+  for (const ElleNode& unode : map.unodes) ids.push_back(unode.id);
+  if (!apply_rules(map, rules, true, ids, result)) result.clear();
   return result;
 }
 
@@ -354,22 +467,57 @@ ElleMap grown_map(const Settings& settings, const Sheet& sheet) {
 
 }  // namespace
 
+namespace {
+
+// Rows of particles that make the sheet as high as the cell.
+int rows_of(const ElleMap& map, const Settings& settings) {
+  const double width = map.high[0] - map.low[0], height = map.high[1] - map.low[1];
+  const double rows = height / width * settings.columns * 2 / std::numbers::sqrt3;
+  const auto refuse = [&](const std::string& wrong, const char* right) {
+    throw InputError({map.source, map.box_line, 0}, "CellBoundingBox",
+                     fmt::format("the cell is {:g} wide and {:g} high: {}", width, height, wrong), right);
+  };
+  if (settings.rows > 0) {
+    if (settings.rows > 2 * rows + 2)
+      refuse(fmt::format("{} rows of particles would lay it {:.3g} times over each other", settings.rows,
+                         settings.rows / rows),
+             "leave sheet.rows at 0 for a sheet as high as the cell");
+    return settings.rows;
+  }
+  if (rows > most_rows)
+    refuse(fmt::format("{:.3g} rows of particles, and {} are the most", rows, most_rows),
+           "lower sheet.columns, or take a map of a lower cell");
+  if (rows < 1.5) refuse(fmt::format("{:.2g} rows of particles, no sheet", rows), "raise sheet.columns");
+  return std::max(2, static_cast<int>(std::lround(rows)));
+}
+
+}  // namespace
+
 Specimen make_specimen(const Settings& settings) {
   Specimen made;
   int rows = settings.rows;
   if (settings.source == "file") {
     made.map = read_elle(settings.file);
-    const double aspect = (made.map.high[1] - made.map.low[1]) / (made.map.high[0] - made.map.low[0]);
-    if (rows == 0)
-      rows = std::max(2, static_cast<int>(std::lround(aspect * settings.columns * 2 / std::numbers::sqrt3)));
+    rows = rows_of(made.map, settings);
   }
   made.sheet = make_sheet(settings.columns, rows, settings.wall_weight);
   if (settings.source != "file") made.map = grown_map(settings, made.sheet);
-  made.cover = cover(made.map, made.sheet);
   made.grains = properties_of(made.map, settings.rules);
-  apply_disorder(made.sheet, made.cover, made.grains, settings.disorder, settings.seed);
+  const std::vector<GrainProperties> unodes = unode_properties_of(made.map, settings.rules);
+  made.cover = cover(made.map, made.sheet);
+  std::vector<GrainProperties> particles;
+  if (!unodes.empty()) {
+    for (const auto u : nearest_unodes(made.map, made.sheet)) particles.push_back(unodes[static_cast<std::size_t>(u)]);
+  } else if (!made.map.unodes.empty()) {
+    made.map.notes.push_back(fmt::format("No rule is about the {} unodes of {}: they are left out.",
+                                         made.map.unodes.size(), made.map.source));
+  }
+  apply_disorder(made.sheet, made.cover, made.grains, settings.disorder, settings.seed, particles);
   made.grows.reserve(made.cover.flynn.size());
-  for (const auto f : made.cover.flynn) made.grows.push_back(made.grains[static_cast<std::size_t>(f)].growth - 1);
+  for (std::size_t i = 0; i < made.cover.flynn.size(); ++i) {
+    const double grain = made.grains[static_cast<std::size_t>(made.cover.flynn[i])].growth;
+    made.grows.push_back((particles.empty() ? grain : grain * particles[i].growth) - 1);
+  }
   return made;
 }
 

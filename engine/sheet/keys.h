@@ -48,9 +48,21 @@ struct Specimen {
   std::vector<GrainProperties> grains;  ///< of each flynn
   std::vector<double> grows;            ///< of each particle, share of the radius in a step
 };
+/// Throws InputError for an Elle file that cannot be used, TooFewInside, RuleError.
 Specimen make_specimen(const Settings& settings);
 
-/// Properties of each flynn: the product of all rules whose attribute has the rule's value.
+/// A rule that no grain and no unode follows.
+struct RuleError : InputError {
+  RuleError(std::size_t which, std::string name, const std::string& wrong, std::string right);
+  std::size_t rule;  ///< index
+  std::string key;   ///< "attribute" or "value"
+  std::string wrong;
+};
+
+/// Properties of each flynn: the product of all rules whose attribute has the rule's value. Rules on attributes of unodes
+/// leave flynns as they are. Throws RuleError for an attribute or a value that the map does not have.
 std::vector<GrainProperties> properties_of(const ElleMap& map, const std::vector<Settings::Rule>& rules);
+/// The same for unodes; empty when no rule is about them.
+std::vector<GrainProperties> unode_properties_of(const ElleMap& map, const std::vector<Settings::Rule>& rules);
 
 }  // namespace dem::sheet

@@ -16,11 +16,40 @@ namespace {
 
 constexpr std::string_view version = "sheet 9";
 
+// Keys that this case has no use for.
+std::vector<std::pair<std::string, std::string>> idle_keys(const Scenario& s, const Settings& settings) {
+  std::vector<std::pair<std::string, std::string>> idle;
+  const auto add = [&](const char* path, const std::string& why) { idle.emplace_back(path, why); };
+  const bool grown = settings.source == "voronoi", layers = settings.source == "layers";
+  const std::string source = "grains.source is \"" + settings.source + "\"";
+  if (!grown) {
+    for (const char* path : {"grains.count", "grains.periodic", "grains.expanding", "grains.expanding_mineral"})
+      add(path, "it is for grown grains, and " + source);
+  }
+  if (!layers) {
+    for (const char* path : {"grains.layer_low", "grains.layer_high", "grains.layer_grains"})
+      add(path, "it is for source \"layers\", and " + source);
+  }
+  if (grown && settings.expanding == 0) add("grains.expanding_mineral", "grains.expanding is 0");
+  if (settings.source == "file") add("grains.lloyd", "it is for grown grains, and " + source);
+  if (layers && settings.layer_grains < 2) add("grains.lloyd", "the layer is one grain");
+  const bool growth = settings.loading.kind == LoadingKind::growth;
+  if (growth) add("loading.step", "marked grains grow by the growth of their [[rule]]");
+  for (std::size_t i = 0; i < settings.rules.size(); ++i) {
+    if (!growth)
+      idle.emplace_back(fmt::format("rule[{}].growth", i),
+                        "it is for loading.kind \"growth\", and loading.kind is \"" + s.text("loading.kind") + "\"");
+  }
+  return idle;
+}
+
 std::vector<CaseSpec> cases(const Scenario& s) {
   const std::string& kind = s.text("loading.kind");
   std::vector<double> spreads = s.reals("sweep.spread");
   const bool swept = !spreads.empty();
   if (!swept) spreads.push_back(s.real("disorder.spread"));
+  refuse_repeated(s, "sweep.spread", s.reals("sweep.spread"));
+  refuse_repeated(s, "solvers", s.texts("solvers"));
   std::vector<CaseSpec> all;
   for (const std::string& solver : s.texts("solvers")) {
     const bool main = solver == s.texts("solvers").front();
@@ -31,11 +60,13 @@ std::vector<CaseSpec> cases(const Scenario& s) {
       std::string id = kind;
       if (swept) id += "_spread_" + id_part(spread);
       if (!main) id += "_" + solver;
-      if (std::ranges::find(all, id, &CaseSpec::id) != all.end()) continue;
-      // A broken file, a map that does not cover the sheet or has too few grains are found before anything runs.
-      if (all.empty() && (settings.source == "file" || settings.expanding > 0)) {
+      // A broken file, a map that does not cover the sheet or has too few grains, and a rule that fits nothing are
+      // found before anything runs.
+      if (all.empty() && (settings.source == "file" || settings.expanding > 0 || !settings.rules.empty())) {
         try {
           (void)make_specimen(settings);
+        } catch (const RuleError& rule) {
+          throw s.error(fmt::format("rule[{}].{}", rule.rule, rule.key), rule.wrong, rule.right());
         } catch (const TooFewInside& few) {
           throw s.error(
               "grains.expanding",
@@ -52,7 +83,9 @@ std::vector<CaseSpec> cases(const Scenario& s) {
                                of(parameter::spread, spread),
                                of(parameter::solver, solver),
                                of(parameter::columns, static_cast<double>(settings.columns))};
+      auto idle = idle_keys(one, settings);
       all.push_back(make_case(model(), std::move(id), std::move(one), std::move(parameters), {kind, solver}, inputs));
+      all.back().idle = std::move(idle);
     }
   }
   return all;

@@ -1,5 +1,7 @@
 #include "engine/study/study.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -258,12 +260,54 @@ std::vector<std::string> case_ids(const Study& study) {
 
 std::string Study::folder() const { return scenario.name() + "." + scenario.scale(); }
 
+namespace {
+
+// Why a value that the user gave changes no case; "" when it does change one. The content of a case holds the values that
+// its result depends on.
+std::string idle(const std::string& path, const Key& key, const Scenario& scenario,
+                 const std::vector<CaseSpec>& cases) {
+  if (key.affects != Affects::specimen && key.affects != Affects::test) return {};
+  std::string why;
+  for (const CaseSpec& spec : cases) {
+    const auto said = std::ranges::find(spec.idle, path, &std::pair<std::string, std::string>::first);
+    if (said == spec.idle.end()) {
+      why.clear();
+      break;
+    }
+    why = said->second;
+  }
+  if (!why.empty()) return why;
+  const std::string line = "\n" + scenario.line(path);
+  if (std::ranges::any_of(cases, [&](const CaseSpec& c) { return c.content.find(line) != std::string::npos; }))
+    return {};
+  const bool known = std::ranges::any_of(
+      cases, [&](const CaseSpec& c) { return c.content.find("\n" + path + " = ") != std::string::npos; });
+  if (known) return "every case takes a value of its own: a list of sweep or another key sets it";
+  return fmt::format("it is for {}, and no case here is one", fmt::join(key.when, ", "));
+}
+
+void tell_idle_keys(Study& study) {
+  for (const auto& [path, key] : study.scenario.given_keys(study.model->keys())) {
+    const InputError place = study.scenario.error(path, "", "");
+    const std::string& file = place.where().file;
+    if (!study.scenario.included().empty() && file == study.scenario.included()) continue;
+    const std::string why = idle(path, *key, study.scenario, study.cases);
+    if (why.empty()) continue;
+    const InputError error =
+        study.scenario.error(path, "this value changes nothing in this scenario", why + "; leave it out");
+    if (file == "--set") throw InputError(error);
+    study.notes.emplace_back(error.what());
+  }
+}
+
+}  // namespace
+
 Study read_study(const std::string& file, std::string_view scale, std::span<const std::string> overrides,
                  std::span<const Model> models) {
   const auto keys_of = [models](std::string_view name) { return find_model(models, name).keys(); };
   Scenario scenario = Scenario::read(file, scale, overrides, keys_of);
   const Model& model = find_model(models, scenario.model());
-  Study study{scenario, &model, model.cases(scenario)};
+  Study study{scenario, &model, model.cases(scenario), {}};
   if (study.cases.empty()) {
     throw InputError(Location{file, 0, 0}, {}, "this scenario has no case", "give at least one test to run");
   }
@@ -274,6 +318,7 @@ Study read_study(const std::string& file, std::string_view scale, std::span<cons
                        "give every value of a sweep once");
     }
   }
+  tell_idle_keys(study);
   return study;
 }
 

@@ -21,13 +21,15 @@ namespace dem {
 struct Study {
   Scenario scenario;
   const Model* model = nullptr;
-  std::vector<CaseSpec> cases;  ///< ids are unique
+  std::vector<CaseSpec> cases;     ///< ids are unique
+  std::vector<std::string> notes;  ///< keys that change nothing here, a line each: to be told before anything runs
 
   /// "NAME.SCALE", the folder below the output folder.
   [[nodiscard]] std::string folder() const;
 };
 
-/// Reads and checks everything that can be checked without simulating. Writes nothing. Throws InputError.
+/// Reads and checks everything that can be checked without simulating. Writes nothing. Throws InputError, also for a key
+/// of --set that changes nothing; one in the scenario's own file is a note, one in a file that it includes is neither.
 Study read_study(const std::string& file, std::string_view scale, std::span<const std::string> overrides,
                  std::span<const Model> models);
 

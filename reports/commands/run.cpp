@@ -59,6 +59,9 @@ ReporterOptions reporter_options(const RunRequest& request) {
 int perform(const Arguments& arguments) {
   const RunRequest request = run_request(arguments);
   const std::vector<dem::Study> studies = checked_studies(request);
+  for (const dem::Study& study : studies) {
+    for (const std::string& note : study.notes) std::cerr << "dem-report: note: " << note << "\n";
+  }
   if (request.pdf) require_weasyprint();
   (void)dem::instruction_sets();  // a wrong DEM_SIMD is found before anything runs
   Reporter reporter(reporter_options(request));

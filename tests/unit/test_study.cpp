@@ -7,6 +7,7 @@
 #include <mutex>
 #include <sstream>
 #include <thread>
+#include <tuple>
 
 #include "engine/core/archive.h"
 #include "engine/core/errors.h"
@@ -520,6 +521,50 @@ TEST_CASE("a sweep with a value twice is refused") {
   Bench bench;
   CHECK_THROWS_WITH_AS(bench.run({"sweep.value=[1, 1]"}), doctest::Contains("two cases are alike (count_1)"),
                        dem::InputError);
+}
+
+TEST_CASE("keys that change nothing: refused from --set, told from the scenario, passed over from what it includes") {
+  const auto read = [](const std::string& name, std::vector<std::string> overrides) {
+    return dem::read_study(std::string(DEM_SOURCE_DIR) + "/scenarios/" + name + ".toml", "smoke", overrides,
+                           dem::models());
+  };
+  for (const auto& [name, set, part] :
+       {std::tuple{"elle_polycrystal", "grains.layer_low=0.3", "grains.source is \"voronoi\""},
+        {"elle_polycrystal", "grains.expanding_mineral=\"MICA\"", "grains.expanding is 0"},
+        {"elle_polycrystal", "disorder.spread=0.3", "every case takes a value of its own"},
+        {"elle_layer_extension", "historical.stop=1e-9", "it is for historical, and no case here is one"},
+        {"elle_layer_extension", "rule[0].growth=0.01", "loading.kind is \"extension\""},
+        {"elle_layer_extension", "grains.count=50", "it is for grown grains"},
+        {"elle_expanding_grains", "loading.step=0.01", "by the growth of their [[rule]]"},
+        {"ldb_dip_angle", "texture.dip=\"20 deg\"", "every case takes a value of its own"},
+        {"quartzite_elastic", "loading.tension_motion=\"both\"", ""}}) {
+    CAPTURE(set);
+    CHECK_THROWS_WITH_AS((void)read(name, {set}), doctest::Contains(part), dem::InputError);
+  }
+  CHECK(read("elle_layer_extension", {"grains.layer_low=0.45"}).notes.empty());
+  const test::Scratch scratch;
+  std::ofstream(scratch / "own.toml") << "model = \"sheet\"\ntitle = \"Own\"\n[grains]\nlayer_low = "
+                                         "0.3\n[loading]\nkind = \"extension\"\n[scales.smoke]\n";
+  const dem::Study own = dem::read_study(scratch / "own.toml", "smoke", {}, dem::models());
+  REQUIRE(own.notes.size() == 1);
+  CHECK(own.notes[0].find("own.toml:4") != std::string::npos);
+  CHECK(own.notes[0].find("grains.layer_low: this value changes nothing in this scenario") != std::string::npos);
+}
+
+TEST_CASE("no shipped scenario has a key that changes nothing, at any scale") {
+  for (const auto& file : fs::directory_iterator(std::string(DEM_SOURCE_DIR) + "/scenarios")) {
+    if (file.path().extension() != ".toml") continue;
+    for (const char* scale : {"smoke", "draft", "paper", "high"}) {
+      CAPTURE(file.path().string());
+      CAPTURE(scale);
+      try {
+        const dem::Study study = dem::read_study(file.path(), scale, {}, dem::models());
+        for (const std::string& note : study.notes) FAIL_CHECK(note);
+      } catch (const dem::InputError& error) {
+        CHECK(std::string(error.what()).find("scale") != std::string::npos);  // it has no such scale
+      }
+    }
+  }
 }
 
 TEST_CASE("changes: indices of lists, values that come and go, and not too many at once") {
