@@ -34,7 +34,8 @@ Record new_record(const Model& model, const CaseSpec& spec);
 /// the seed.
 Parameters usual_values(std::span<const Parameter> declared, const Scenario& scenario);
 
-/// A value as part of an id: 1.5 is "1_5", "alkali feldspar" is "alkali_feldspar".
+/// A value as part of an id, of a-z, 0-9 and _ alone, whatever the value: 1.5 is "1_5", -1 "m1", "Alkali feldspar"
+/// "alkali_feldspar". The one place where values become names of folders and files.
 std::string id_part(double value);
 std::string id_part(std::string_view text);
 
