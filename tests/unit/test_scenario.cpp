@@ -134,7 +134,8 @@ TEST_CASE("a model's own check names the line of the value, of the table for a l
   CHECK(scenario.error("mineral[1].share", "wrong", "right").where().line == 12);
   CHECK(scenario.error("mineral", "wrong", "right").where().line == 8);
   CHECK(scenario.error("sweep", "wrong", "right").where().line == 16);
-  CHECK(std::string(scenario.error("specimen.height", "a", "b").what()).ends_with("study.toml:4:1: specimen.height: a; b"));
+  CHECK(std::string(scenario.error("specimen.height", "a", "b").what())
+            .ends_with("study.toml:4:1: specimen.height: a; b"));
 }
 
 TEST_CASE("the text of --explain-keys has every key with unit, range, default and help") {
