@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -124,7 +125,7 @@ class Walk {
       const std::string name(key.str());
       const Location where = location(file_, key.source());
       if (std::ranges::find(scale_names, name) == scale_names.end()) {
-        problem({where, "scales." + name, "unknown scale", advice(name, scale_names, "the scales are")});
+        problem({where, "scales." + excerpt(name), "unknown scale", advice(name, scale_names, "the scales are")});
       } else if (const auto* one = content.as_table()) {
         table(*one, "", "scales." + name + ".", layers[name]);
       } else {
@@ -200,8 +201,11 @@ class Walk {
 /// What was meant by a value that is no TOML: "write ..."; "" when nobody can tell. `key` goes before it.
 std::string meant_by(std::string_view value, const std::string& key) {
   const std::string word(value);
+  if (word == "true" || word == "false") return {};  // something else is wrong
   if (const std::optional<bool> truth = truth_of(word)) {
-    return "write " + key + (*truth ? "true" : "false") + ", in small letters and without quotes";
+    const std::string right = key + (*truth ? "true" : "false");
+    if (word.size() >= 4) return "write " + right + ", in small letters and without quotes";
+    return "write " + right + ", or, where a text is meant, " + key + "\"" + word + "\"";  // yes, no, on, off
   }
   if (value.empty() || value.find_first_of("\"'[]{}#") != std::string_view::npos) return {};
   const std::string_view digits = value.substr(value.find_first_not_of("+-") == 1 ? 1 : 0);
@@ -225,12 +229,31 @@ std::string meant_in_line(std::string_view text, std::uint32_t line) {
   said.remove_prefix(equals + 1);
   const std::string_view value = trimmed(said.substr(0, said.find('#')));
   if (const std::string meant = meant_by(value, key); !meant.empty()) return meant;
-  const bool bare = !value.empty() && value.find_first_of("\"'[]{}=") == std::string_view::npos && value.size() < 60;
+  const bool letters = std::ranges::any_of(value, [](unsigned char c) { return std::isalpha(c) != 0 || c >= 128; });
+  const bool bare = letters && value.find_first_of("\"'[]{}=") == std::string_view::npos && value.size() < 60 &&
+                    value != "true" && value != "false";
   return bare ? "texts and quantities need quotes: write " + key + "\"" + excerpt(std::string(value)) + "\""
               : std::string();
 }
 
+constexpr int most_dots = 2000;
+
+/// The first line with more dots, 0: there is none. toml++ goes one call deeper for each dot of a key, and with tens of
+/// thousands beyond the stack.
+int line_of_many_dots(std::string_view text) {
+  for (int line = 1; !text.empty(); ++line) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    if (std::ranges::count(text.substr(0, end), '.') > most_dots) return line;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return 0;
+}
+
 toml::table parse(const std::string& text, const std::string& file) {
+  if (const int line = line_of_many_dots(text); line > 0) {
+    throw InputError({file, line, 1}, {}, "the line has more than " + std::to_string(most_dots) + " dots",
+                     "break long lists over several lines");
+  }
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {
@@ -260,7 +283,8 @@ std::vector<Key> declarations(const toml::table& root, const std::string& file, 
     return keys;
   } catch (const InputError& error) {
     const bool missing = !node && !named;
-    throw InputError(where, "model", missing ? "the key is missing" : "unknown model '" + model + "'", error.right());
+    throw InputError(where, "model", missing ? "the key is missing" : "unknown model '" + excerpt(model) + "'",
+                     error.right());
   }
 }
 
@@ -283,15 +307,18 @@ Override parse_override(const std::string& text) {
     throw InputError(where, path, "there is no value after '='", example);
   }
   try {
+    if (line_of_many_dots(value) > 0) {
+      throw InputError(where, path, "more than " + std::to_string(most_dots) + " dots", example);
+    }
     toml::table parsed = toml::parse("value = " + value);
     if (parsed.size() != 1) throw InputError(where, path, "more than one value", example);
     return {path, text, std::move(parsed)};
   } catch (const toml::parse_error&) {
     const std::string meant = meant_by(trimmed(value), "--set " + path + "=");
-    if (!meant.empty()) throw InputError(where, path, "'" + value + "' is not a TOML value", meant);
-    throw InputError(
-        where, path, "'" + value + "' is not a TOML value",
-        "texts and quantities need their quotes, which the shell takes away: --set '" + path + "=\"" + value + "\"'");
+    if (!meant.empty()) throw InputError(where, path, "'" + excerpt(value) + "' is not a TOML value", meant);
+    throw InputError(where, path, "'" + excerpt(value) + "' is not a TOML value",
+                     "texts and quantities need their quotes, which the shell takes away: --set '" + path + "=\"" +
+                         excerpt(value) + "\"'");
   }
 }
 
