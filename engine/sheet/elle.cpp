@@ -10,6 +10,8 @@
 #include <unordered_map>
 
 #include "engine/core/errors.h"
+#include "engine/core/files.h"
+#include "engine/scenario/scenario.h"
 
 namespace dem::sheet {
 namespace {
