@@ -6,22 +6,30 @@
 #include <vector>
 
 #include "engine/core/errors.h"
+#include "engine/core/text.h"
 #include "reports/commands/parse.h"
 #include "reports/commands/table.h"
+
+namespace {
+
+// Names of files, keys and what other tools said may hold what a terminal obeys.
+void tell(const std::string& what) { std::cerr << "dem-report: " << dem::printable(what, true) << "\n"; }
+
+}  // namespace
 
 int main(int argc, char** argv) {
   try {
     const cli::Call call = cli::parse(cli::commands(), std::vector<std::string>(argv + 1, argv + argc));
     return call.command->perform(call.arguments);
   } catch (const dem::InputError& error) {
-    std::cerr << "dem-report: " << error.what() << "\n";
+    tell(error.what());
     return 2;
   } catch (const dem::EnvironmentError& error) {
-    std::cerr << "dem-report: " << error.what() << "\n";
+    tell(error.what());
   } catch (const std::bad_alloc&) {
     std::cerr << "dem-report: out of memory; try a smaller --scale\n";
   } catch (const std::exception& error) {
-    std::cerr << "dem-report: internal error: " << error.what() << "\n";
+    tell(std::string("internal error: ") + error.what());
   }
   return 3;
 }

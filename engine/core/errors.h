@@ -20,12 +20,14 @@ class InputError : public std::runtime_error {
       : std::runtime_error(compose(where, key, wrong, right)),
         where_(std::move(where)),
         key_(std::move(key)),
+        wrong_(wrong),
         right_(std::move(right)) {}
   explicit InputError(const std::string& wrong, std::string right = {})
       : InputError(Location{}, {}, wrong, std::move(right)) {}
 
   [[nodiscard]] const Location& where() const { return where_; }
   [[nodiscard]] const std::string& key() const { return key_; }
+  [[nodiscard]] const std::string& wrong() const { return wrong_; }
   [[nodiscard]] const std::string& right() const { return right_; }
 
  private:
@@ -46,6 +48,7 @@ class InputError : public std::runtime_error {
   }
   Location where_;
   std::string key_;
+  std::string wrong_;
   std::string right_;
 };
 

@@ -4,13 +4,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <system_error>
-
-#include "engine/core/errors.h"
 
 namespace dem {
 namespace {
@@ -19,6 +18,22 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what, int code) {
   throw EnvironmentError("cannot " + what + " " + path.string() + ": " + std::strerror(code));
+}
+
+bool has_nul(const fs::path& path) { return path.native().find('\0') != std::string::npos; }
+
+/// ".." at the start leads to a folder that was asked for; after a name it leads out of that one.
+bool leaves_its_folder(const fs::path& path) {
+  bool gone_in = false;
+  for (const fs::path& part : path) {
+    if (part == ".." && gone_in) return true;
+    gone_in = gone_in || (part != ".." && part != "." && !part.empty() && part != path.root_path());
+  }
+  return has_nul(path);
+}
+
+void refuse_to_leave(const fs::path& path) {
+  if (leaves_its_folder(path)) throw EnvironmentError("will not write " + path.string() + ": it leaves its folder");
 }
 
 class Descriptor {
@@ -39,12 +54,15 @@ class Descriptor {
 /// (mkstemp() would make it for one user only, and to ask for the mask of the others is to change it for all threads.)
 fs::path reserve(const fs::path& path) {
   const std::string head = "." + path.filename().string() + "." + std::to_string(::getpid()) + "-";
-  for (int number = 0;; ++number) {
+  constexpr int tries = 1000;  // what dead processes of our number left
+  for (int number = 0; number < tries; ++number) {
     fs::path part = path.parent_path() / (head + std::to_string(number) + ".part");
     const Descriptor file(::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (file.get() >= 0) return part;
     if (errno != EEXIST) fail(path, "write", errno);
   }
+  throw EnvironmentError("cannot write " + path.string() + ": a thousand names of temporary files beside it (" + head +
+                         "0.part, ...) are taken; remove them");
 }
 
 void flush(const fs::path& path, const fs::path& target) {
@@ -56,7 +74,16 @@ void flush(const fs::path& path, const fs::path& target) {
 
 }  // namespace
 
+fs::path inside(const fs::path& folder, const fs::path& name) {
+  const bool up = std::find(name.begin(), name.end(), fs::path("..")) != name.end();
+  if (name.empty() || name.has_root_path() || up || has_nul(name)) {
+    throw EnvironmentError("will not write " + name.string() + ": it lies outside " + folder.string());
+  }
+  return folder / name;
+}
+
 void write_aside(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+  refuse_to_leave(path);
   if (path.has_parent_path()) make_folder(path.parent_path());
   const fs::path part = reserve(path);
   try {
@@ -99,7 +126,43 @@ std::string read_file(const fs::path& path) {
   }
 }
 
+std::string read_input(const fs::path& path, std::uint64_t most, const Location& where, const std::string& key) {
+  const auto refuse = [&](const std::string& wrong, const std::string& right) {
+    throw InputError(where, key, wrong, right);
+  };
+  const std::string name = where.file == path.string() ? "the file" : path.string();
+  // Without O_NONBLOCK the opening of a pipe waits for a writer.
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  struct stat facts {};
+  if (has_nul(path) || file.get() < 0 || ::fstat(file.get(), &facts) != 0) {
+    refuse("cannot read " + path.string() + ": " + std::strerror(has_nul(path) ? EINVAL : errno),
+           "give a file that you may read");
+  }
+  if (!S_ISREG(facts.st_mode)) {
+    refuse(name + " is no plain file but a folder, a pipe or a device", "give the path of a file with text");
+  }
+  const auto size = static_cast<std::uint64_t>(facts.st_size);
+  if (size > most) {
+    refuse(name + " has " + std::to_string(size) + " bytes",
+           "at most " + std::to_string(most) + " are read; is it the right file?");
+  }
+  // No more than it has now: some that say 0 (/proc/kmsg) never end.
+  std::string bytes(size, '\0');
+  std::size_t have = 0;
+  while (have < bytes.size()) {
+    const ssize_t count = ::read(file.get(), bytes.data() + have, bytes.size() - have);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0)
+      refuse("cannot read " + path.string() + ": " + std::strerror(errno), "give a file that you may read");
+    if (count == 0) break;
+    have += static_cast<std::size_t>(count);
+  }
+  bytes.resize(have);
+  return bytes;
+}
+
 void make_folder(const fs::path& path) {
+  refuse_to_leave(path);
   std::error_code error;
   fs::create_directories(path, error);
   if (error || !fs::is_directory(path, error)) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "engine/lattice/quantities.h"
 #include "engine/model/keeper.h"
@@ -18,19 +19,23 @@ struct Wanted {
   std::string test;
   std::int64_t elements_y = 12;
   std::string planes, moving, direction, method;
-  double factor = 1;     // on loading.factor
-  double stiffness = 1;  // on planes.stiffness
+  double factor = 1;                      // on loading.factor
+  double stiffness = 1;                   // on planes.stiffness
+  std::optional<std::size_t> extra = {};  // the [[extra]] that asks for it; none: the sweep does
 };
 
-CaseSpec spec_of(const Scenario& s, const Wanted& w, bool beside) {
-  Scenario one = s.with("tests", std::vector<std::string>{w.test})
-                     .with("block.elements_y", w.elements_y)
-                     .with("loading.planes", w.planes)
-                     .with("loading.moving", w.moving)
-                     .with("loading.direction", w.direction)
-                     .with("loading.factor", w.factor * s.real("loading.factor"))
-                     .with("planes.stiffness", w.stiffness * s.real("planes.stiffness"))
-                     .with("elastic.method", w.method);
+CaseSpec spec_of(const Scenario& s, const Wanted& w) {
+  const bool beside = w.extra.has_value();
+  // The key that a value comes from, for errors about it; "": the key itself.
+  const auto from = [&](const char* name) { return beside ? fmt::format("extra[{}].{}", *w.extra, name) : ""; };
+  Scenario one = s.with("tests", std::vector<std::string>{w.test}, from("test"))
+                     .with("block.elements_y", w.elements_y, beside ? from("elements_y") : "sweep.elements_y")
+                     .with("loading.planes", w.planes, from("planes"))
+                     .with("loading.moving", w.moving, from("moving"))
+                     .with("loading.direction", w.direction, from("direction"))
+                     .with("loading.factor", w.factor * s.real("loading.factor"), from("factor"))
+                     .with("planes.stiffness", w.stiffness * s.real("planes.stiffness"), from("stiffness"))
+                     .with("elastic.method", w.method, from("method"));
   std::string id = fmt::format("{}_n_{}", w.test, w.elements_y);
   if (beside) {
     if (w.planes != "elastic") id += "_" + w.planes;
@@ -60,7 +65,7 @@ std::vector<CaseSpec> cases(const Scenario& s) {
   refuse_repeated(s, "sweep.elements_y", s.integers("sweep.elements_y"));
   std::vector<CaseSpec> all;
   const auto add = [&](const Wanted& w, const std::string& extra) {
-    CaseSpec spec = spec_of(s, w, !extra.empty());
+    CaseSpec spec = spec_of(s, w);
     if (std::ranges::find(all, spec.id, &CaseSpec::id) != all.end())
       throw s.error(extra, "the case " + spec.id + " is there already", "give each case once");
     all.push_back(std::move(spec));
@@ -75,7 +80,7 @@ std::vector<CaseSpec> cases(const Scenario& s) {
   for (std::size_t i = 0; i < s.count("extra"); ++i) {
     const auto key = [i](const char* name) { return fmt::format("extra[{}].{}", i, name); };
     add({s.text(key("test")), s.integer(key("elements_y")), s.text(key("planes")), s.text(key("moving")),
-         s.text(key("direction")), s.text(key("method")), s.real(key("factor")), s.real(key("stiffness"))},
+         s.text(key("direction")), s.text(key("method")), s.real(key("factor")), s.real(key("stiffness")), i},
         key("test"));
   }
   if (all.empty())

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
+#include "engine/core/text.h"
 #include "engine/model/model.h"
 #include "engine/scenario/units.h"
 
@@ -69,6 +72,10 @@ const std::string& CaseSpec::test() const {
 
 CaseSpec make_case(const Model& model, std::string id, Scenario scenario, Parameters parameters,
                    const std::vector<std::string>& kinds, std::string_view inputs) {
+  constexpr std::size_t longest = 200;  // of a file's name
+  const bool plain = !id.empty() && id.size() <= longest &&
+                     id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos;
+  if (!plain) throw std::logic_error("'" + id + "' cannot be the id of a case; ids are made with id_part()");
   std::vector<std::string> paths;
   const auto add = [&](std::span<const Key> keys) {
     for (const Key& key : keys) {
@@ -108,10 +115,23 @@ Parameters usual_values(std::span<const Parameter> declared, const Scenario& sce
 std::string id_part(double value) { return id_part(fmt::format("{}", value)); }
 
 std::string id_part(std::string_view text) {
-  std::string part(text);
-  std::ranges::replace(part, '.', '_');
-  std::ranges::replace(part, ' ', '_');
-  std::ranges::replace(part, '-', 'm');
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_number = error == std::errc() && end == text.data() + text.size();
+  std::string part;
+  while (!text.empty()) {
+    const Character next = first_character(text);
+    if (next.code >= 128) {
+      part += fmt::format("u{:x}", static_cast<std::uint32_t>(next.code));
+    } else if (std::isalnum(static_cast<int>(next.code)) != 0) {
+      part += static_cast<char>(std::tolower(static_cast<int>(next.code)));
+    } else if (is_number && next.code == '-') {
+      part += 'm';
+    } else if (!is_number || next.code != '+') {
+      part += '_';
+    }
+    text.remove_prefix(next.bytes);
+  }
   return part;
 }
 

@@ -42,7 +42,8 @@ void refuse_repeated(const Scenario& scenario, std::string_view path, const std:
 void refuse_repeated(const Scenario& scenario, std::string_view path, const std::vector<double>& values);
 void refuse_repeated(const Scenario& scenario, std::string_view path, const std::vector<std::string>& values);
 
-/// A value as part of an id: 1.5 is "1_5", "alkali feldspar" is "alkali_feldspar".
+/// A value as part of an id, of a-z, 0-9 and _ alone, whatever the value: 1.5 is "1_5", -1 "m1", "Alkali feldspar"
+/// "alkali_feldspar". The one place where values become names of folders and files.
 std::string id_part(double value);
 std::string id_part(std::string_view text);
 

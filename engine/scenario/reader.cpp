@@ -2,19 +2,28 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <optional>
 #include <set>
 #include <stdexcept>
 
 #include "engine/core/files.h"
+#include "engine/core/text.h"
 #include "engine/scenario/convert.h"
 #include "engine/scenario/suggest.h"
+#include "engine/scenario/units.h"
 
 namespace dem::scenario_detail {
 namespace {
 
 const std::vector<std::string> scale_names = {"smoke", "draft", "paper", "high"};
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
 
 /// What one layer (the file, a scale, an override) says.
 struct Layer {
@@ -116,7 +125,7 @@ class Walk {
       const std::string name(key.str());
       const Location where = location(file_, key.source());
       if (std::ranges::find(scale_names, name) == scale_names.end()) {
-        problem({where, "scales." + name, "unknown scale", advice(name, scale_names, "the scales are")});
+        problem({where, "scales." + excerpt(name), "unknown scale", advice(name, scale_names, "the scales are")});
       } else if (const auto* one = content.as_table()) {
         table(*one, "", "scales." + name + ".", layers[name]);
       } else {
@@ -148,8 +157,17 @@ class Walk {
       list(path, node, where, shown, layer);
     } else {
       const std::string kind = node.is_table() || node.is_array_of_tables() ? "unknown table" : "unknown key";
-      problem({where, shown + path, kind, declared_.advice_for(pattern)});
+      const std::string_view bare = trimmed(name);
+      const bool blanks =
+          bare.size() != name.size() && declared_.find(pattern_of(parent_of(path, name) + std::string(bare)));
+      problem({where, excerpt(shown + path), kind,
+               blanks ? "its quotes hold a blank: write " + std::string(bare) : declared_.advice_for(pattern)});
     }
+  }
+
+  /// "specimen. diameter" -> "specimen."
+  static std::string parent_of(const std::string& path, const std::string& name) {
+    return path.substr(0, path.size() - name.size());
   }
 
   void list(const std::string& path, const toml::node& node, const Location& where, const std::string& shown,
@@ -180,12 +198,68 @@ class Walk {
   std::vector<InputError> problems_;
 };
 
+/// What was meant by a value that is no TOML: "write ..."; "" when nobody can tell. `key` goes before it.
+std::string meant_by(std::string_view value, const std::string& key) {
+  const std::string word(value);
+  if (word == "true" || word == "false") return {};  // something else is wrong
+  if (const std::optional<bool> truth = truth_of(word)) {
+    const std::string right = key + (*truth ? "true" : "false");
+    if (word.size() >= 4) return "write " + right + ", in small letters and without quotes";
+    return "write " + right + ", or, where a text is meant, " + key + "\"" + word + "\"";  // yes, no, on, off
+  }
+  if (value.empty() || value.find_first_of("\"'[]{}#") != std::string_view::npos) return {};
+  const std::string_view digits = value.substr(value.find_first_not_of("+-") == 1 ? 1 : 0);
+  if (digits.size() > 18 && digits.find_first_not_of("0123456789_") == std::string_view::npos) {
+    return "the number is too large: whole numbers go up to 9223372036854775807, seeds up to 9007199254740992";
+  }
+  if (const std::size_t comma = value.find(','); comma != std::string_view::npos) {
+    const std::string point = word.substr(0, comma) + "." + word.substr(comma + 1);
+    if (read_number(point)) return "the decimal sign is a point: write " + key + point;
+  }
+  return {};
+}
+
+/// The same of the line of a file at which the reading of TOML ended.
+std::string meant_in_line(std::string_view text, std::uint32_t line) {
+  for (; line > 1 && text.find('\n') != std::string_view::npos; --line) text.remove_prefix(text.find('\n') + 1);
+  std::string_view said = text.substr(0, text.find('\n'));
+  const std::size_t equals = said.find('=');
+  if (equals == std::string_view::npos) return {};
+  const std::string key = excerpt(std::string(trimmed(said.substr(0, equals)))) + " = ";
+  said.remove_prefix(equals + 1);
+  const std::string_view value = trimmed(said.substr(0, said.find('#')));
+  if (const std::string meant = meant_by(value, key); !meant.empty()) return meant;
+  const bool letters = std::ranges::any_of(value, [](unsigned char c) { return std::isalpha(c) != 0 || c >= 128; });
+  const bool bare = letters && value.find_first_of("\"'[]{}=") == std::string_view::npos && value.size() < 60 &&
+                    value != "true" && value != "false";
+  return bare ? "texts and quantities need quotes: write " + key + "\"" + excerpt(std::string(value)) + "\""
+              : std::string();
+}
+
+constexpr int most_dots = 2000;
+
+/// The first line with more dots, 0: there is none. toml++ goes one call deeper for each dot of a key, and with tens of
+/// thousands beyond the stack.
+int line_of_many_dots(std::string_view text) {
+  for (int line = 1; !text.empty(); ++line) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    if (std::ranges::count(text.substr(0, end), '.') > most_dots) return line;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return 0;
+}
+
 toml::table parse(const std::string& text, const std::string& file) {
+  if (const int line = line_of_many_dots(text); line > 0) {
+    throw InputError({file, line, 1}, {}, "the line has more than " + std::to_string(most_dots) + " dots",
+                     "break long lists over several lines");
+  }
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {
+    const std::string meant = meant_in_line(text, error.source().begin.line);
     throw InputError(location(file, error.source()), {}, "not TOML: " + std::string(error.description()),
-                     "values are numbers, true or false, \"texts\" or [lists]");
+                     meant.empty() ? "values are numbers, true or false, \"texts\" or [lists]" : meant);
   }
 }
 
@@ -209,7 +283,8 @@ std::vector<Key> declarations(const toml::table& root, const std::string& file, 
     return keys;
   } catch (const InputError& error) {
     const bool missing = !node && !named;
-    throw InputError(where, "model", missing ? "the key is missing" : "unknown model '" + model + "'", error.right());
+    throw InputError(where, "model", missing ? "the key is missing" : "unknown model '" + excerpt(model) + "'",
+                     error.right());
   }
 }
 
@@ -225,22 +300,34 @@ Override parse_override(const std::string& text) {
   const std::size_t equals = text.find('=');
   const std::string example = "write --set key=value, such as --set seed=2 or --set 'title=\"My title\"'";
   if (equals == std::string::npos) throw InputError(where, text, "there is no '='", example);
-  std::string path = text.substr(0, equals);
-  while (path.ends_with(' ')) path.pop_back();
+  const std::string path(trimmed(text.substr(0, equals)));
   const std::string value = text.substr(equals + 1);
   if (path.empty()) throw InputError(where, text, "there is no key before '='", example);
   if (value.find_first_not_of(" \t") == std::string::npos) {
     throw InputError(where, path, "there is no value after '='", example);
   }
   try {
+    if (line_of_many_dots(value) > 0) {
+      throw InputError(where, path, "more than " + std::to_string(most_dots) + " dots", example);
+    }
     toml::table parsed = toml::parse("value = " + value);
     if (parsed.size() != 1) throw InputError(where, path, "more than one value", example);
     return {path, text, std::move(parsed)};
   } catch (const toml::parse_error&) {
-    throw InputError(
-        where, path, "'" + value + "' is not a TOML value",
-        "texts and quantities need their quotes, which the shell takes away: --set '" + path + "=\"" + value + "\"'");
+    const std::string meant = meant_by(trimmed(value), "--set " + path + "=");
+    if (!meant.empty()) throw InputError(where, path, "'" + excerpt(value) + "' is not a TOML value", meant);
+    throw InputError(where, path, "'" + excerpt(value) + "' is not a TOML value",
+                     "texts and quantities need their quotes, which the shell takes away: --set '" + path + "=\"" +
+                         excerpt(value) + "\"'");
   }
+}
+
+/// Every entry of a list of tables goes.
+void drop_list(const std::string& list, ReadScenario& scenario) {
+  const std::string start = list + "[";
+  std::erase_if(scenario.values, [&](const auto& item) { return item.first.starts_with(start); });
+  std::erase_if(scenario.counts, [&](const auto& item) { return item.first.starts_with(start); });
+  scenario.counts[list] = 0;
 }
 
 void apply_override(const Override& override, const Declared& declared, ReadScenario& scenario) {
@@ -249,8 +336,11 @@ void apply_override(const Override& override, const Declared& declared, ReadScen
   const Key* key = declared.find(pattern);
   if (!key) {
     if (declared.has_table(pattern + "[]")) {
+      const auto* list = override.parsed.get("value")->as_array();
+      if (list && list->empty()) return drop_list(override.path, scenario);
       throw InputError(where, override.path, "is a list of tables",
-                       "name one table and key of it, as in " + override.path + "[0].KEY=VALUE");
+                       "name one table and key of it, as in " + override.path + "[0].KEY=VALUE, or drop all with " +
+                           override.path + "=[]");
     }
     if (declared.has_table(pattern)) {
       throw InputError(where, override.path, "is a table, not a key", declared.advice_for(pattern + "."));
@@ -276,11 +366,7 @@ void apply_override(const Override& override, const Declared& declared, ReadScen
 
 /// Lays `layer` over `scenario`. A list of tables replaces the list below it as a whole.
 void lay_over(const Layer& layer, ReadScenario& scenario) {
-  for (const auto& [list, count] : layer.counts) {
-    const std::string start = list + "[";
-    std::erase_if(scenario.values, [&](const auto& item) { return item.first.starts_with(start); });
-    std::erase_if(scenario.counts, [&](const auto& item) { return item.first.starts_with(start); });
-  }
+  for (const auto& [list, count] : layer.counts) drop_list(list, scenario);
   for (const auto& [list, count] : layer.counts) scenario.counts[list] = count;
   for (const auto& [path, value] : layer.values) scenario.values[path] = value;
 }
@@ -307,15 +393,15 @@ void complete(const Declared& declared, const std::string& file, std::span<const
     concrete_paths(key.path, scenario, paths);
     for (const std::string& path : paths) {
       if (scenario.values.contains(path)) continue;
-      if (!key.standard.empty()) {
-        scenario.values[path] = {standard_value(key), Location{file, 0, 0}, false};
-        continue;
-      }
       Location where{file, 0, 0};
       const std::size_t dot = path.rfind('.');
       for (const Layer* layer : layers) {
         const auto table = layer->tables.find(dot == std::string::npos ? std::string() : path.substr(0, dot));
         if (dot != std::string::npos && where.line == 0 && table != layer->tables.end()) where = table->second;
+      }
+      if (!key.standard.empty()) {
+        scenario.values[path] = {standard_value(key), where, false};
+        continue;
       }
       throw InputError(where, path, "the key is missing", "add " + expectation(key) + " (" + key.help + ")");
     }
@@ -333,12 +419,14 @@ Included included_file(const toml::table& root, const std::string& file, std::sp
   const auto text = [](const toml::node* node, const Location& where) {
     const auto* word = node->as_string();
     if (!word) throw InputError(where, "include", "wrong type", "write the path of a file in quotes");
-    return word->get();
+    const auto keys = common_keys();
+    const auto include = std::ranges::find(keys, std::string("include"), &Key::path);
+    return std::get<std::string>(convert(*include, *node, where, "include"));
   };
   if (const toml::node* node = root.get("include")) {
     found.where = location(file, node->source());
     const std::filesystem::path named = text(node, found.where);
-    if (!named.empty()) found.file = (std::filesystem::path(file).parent_path() / named).string();
+    if (!named.empty()) found.file = file_beside(file, named).string();
   }
   for (const Override& override : overrides) {
     if (override.path != "include") continue;
@@ -384,16 +472,27 @@ std::string read_text(const std::string& file) {
     throw InputError(Location{file, 0, 0}, {}, folder ? "this is a folder, not a scenario" : "there is no such file",
                      right);
   }
-  try {
-    return read_file(path);
-  } catch (const EnvironmentError& failure) {
-    throw InputError(Location{file, 0, 0}, {}, failure.what(), "give a file that you may read");
+  return read_input(path, largest_scenario, Location{file, 0, 0});
+}
+
+/// The name becomes a folder's, and a word of the report and of summary.json.
+void check_name(const std::string& file) {
+  const std::string name = std::filesystem::path(file).stem().string();
+  const auto refuse = [&](const std::string& wrong, const std::string& right) {
+    throw InputError(Location{file, 0, 0}, {}, wrong, right);
+  };
+  if (!is_utf8(name)) refuse("the name of the file is not UTF-8", "rename it, best to letters, digits, _ and -");
+  if (printable(name) != name) {
+    refuse("the name of the file has control characters", "rename it, best to letters, digits, _ and -");
   }
+  if (name.size() > 200) refuse("the name of the file has " + std::to_string(name.size()) + " bytes", "at most 200 do");
 }
 
 ReadScenario read_scenario(const std::string& file, std::string_view scale, std::span<const std::string> overrides,
                            const KeysOf& keys_of) {
-  const toml::table root = parse(read_text(file), file);
+  const std::string bytes = read_text(file);
+  check_name(file);
+  const toml::table root = parse(bytes, file);
   std::vector<Override> parsed;
   std::optional<std::string> model;
   for (const std::string& text : overrides) {
@@ -406,11 +505,11 @@ ReadScenario read_scenario(const std::string& file, std::string_view scale, std:
   const Included include = included_file(root, file, parsed);
   if (!include.file.empty()) {
     std::error_code error;
-    if (!std::filesystem::is_regular_file(include.file, error)) {
-      throw InputError(include.where, "include", "there is no file " + include.file,
+    if (!std::filesystem::exists(include.file, error)) {
+      throw InputError(include.where, "include", "there is no file " + excerpt(include.file),
                        "give the path of a file with keys to start from, seen from this file's folder");
     }
-    const toml::table start = parse(read_text(include.file), include.file);
+    const toml::table start = parse(read_input(include.file, largest_scenario, include.where, "include"), include.file);
     for (const char* name : {"include", "scales"}) {
       if (const toml::node* node = start.get(name)) {
         throw InputError(location(include.file, node->source()), name, "does not belong into an included file",

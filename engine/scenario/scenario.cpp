@@ -60,7 +60,7 @@ Scenario Scenario::read(const std::string& file, std::string_view scale, std::sp
   scenario.included_ = read.included;
   scenario.scale_ = scale;
   for (auto& [path, item] : read.values) {
-    scenario.entries_[path] = {std::move(item.value), std::move(item.where), item.given};
+    scenario.entries_[path] = {std::move(item.value), std::move(item.where), item.given, {}};
   }
   scenario.counts_ = std::move(read.counts);
   return scenario;
@@ -101,10 +101,15 @@ bool Scenario::given(std::string_view path) const {
   return counts_.contains(path);
 }
 
-Scenario Scenario::with(std::string_view path, Value value) const {
+Scenario Scenario::with(std::string_view path, Value value, std::string_view source) const {
   if (entry(path).value.index() != value.index()) defect(path, "is replaced by a value of another type");
   Scenario copy = *this;
-  copy.entries_.find(path)->second.value = std::move(value);
+  Entry& replaced = copy.entries_.find(path)->second;
+  replaced.value = std::move(value);
+  if (!source.empty() && source != path) {
+    replaced.source = source;
+    replaced.where = entry(source).where;
+  }
   return copy;
 }
 
@@ -113,6 +118,7 @@ InputError Scenario::error(std::string_view path, const std::string& wrong, std:
   const auto at = entries_.find(path);
   if (at != entries_.end()) {
     where = at->second.where;
+    if (!at->second.source.empty()) return {where, at->second.source, wrong, std::move(right)};
   } else {
     // A table or a list: where its first given key stands.
     for (const auto& [name, entry] : entries_) {
@@ -123,6 +129,16 @@ InputError Scenario::error(std::string_view path, const std::string& wrong, std:
     }
   }
   return {where, std::string(path), wrong, std::move(right)};
+}
+
+std::filesystem::path file_beside(const std::filesystem::path& scenario, const std::filesystem::path& named) {
+  const std::filesystem::path beside = scenario.parent_path() / named;  // `named` itself when it is absolute
+  std::error_code error;
+  if (std::filesystem::exists(beside, error) || !std::filesystem::is_symlink(scenario, error)) return beside;
+  const std::filesystem::path target = std::filesystem::canonical(scenario, error);
+  if (error) return beside;
+  const std::filesystem::path there = target.parent_path() / named;
+  return std::filesystem::exists(there, error) ? there : beside;
 }
 
 std::string Scenario::canonical() const {

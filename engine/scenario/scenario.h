@@ -13,6 +13,7 @@
 //                    [scales.draft.specimen] diameter = "12.5 mm"     overrides of any key at that scale
 // Only scales that have a [scales.NAME] table (it may be empty) can be asked for.
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <map>
@@ -39,6 +40,14 @@ enum class Affects {
   drawing,     ///< the report alone
 };
 
+/// What a text may hold. Controls, such as ESC, are refused in all, and so is a word of more letters than a line has.
+enum class Form {
+  line,       ///< up to 200 characters
+  paragraph,  ///< up to 5000, line ends included
+  name,       ///< of what gets folders and rows: letters, digits, blanks and - _ ( ) +, up to 40; or empty by default
+  path,       ///< of a file, up to 1000
+};
+
 /// The declaration of one key.
 struct Key {
   std::string path = {};  ///< "specimen.diameter", "mineral[].share", "sweep.aspect_ratio"
@@ -47,6 +56,7 @@ struct Key {
   double low = -std::numeric_limits<double>::infinity();  ///< inclusive, in `unit`; for lists: of each element
   double high = std::numeric_limits<double>::infinity();
   std::vector<std::string> choices = {};  ///< for text(s): the allowed words; empty: any
+  Form form = Form::line;                 ///< for text(s) without choices
   std::string standard = {};  ///< the default as TOML text ("\"0.35 mm\"", "1.66", "[1]"); "" : the key is required
   Affects affects = Affects::undeclared;
   std::vector<std::string> when = {};  ///< the tests (or solvers, or "loaded") that it matters to; empty: all
@@ -87,8 +97,9 @@ class Scenario {
   [[nodiscard]] std::size_t count(std::string_view list) const;
   [[nodiscard]] bool given(std::string_view path) const;  ///< written by the user (file, scale or --set)
 
-  /// A copy with one value replaced (SI), for the cases of a sweep.
-  [[nodiscard]] Scenario with(std::string_view path, Value value) const;
+  /// A copy with one value replaced (SI), for the cases of a sweep. `source` is the key that it comes from
+  /// ("sweep.mineral"): errors about `path` name that one, and its line.
+  [[nodiscard]] Scenario with(std::string_view path, Value value, std::string_view source = {}) const;
   /// An error about the value of `path`, with the line where the user wrote it.
   [[nodiscard]] InputError error(std::string_view path, const std::string& wrong, std::string right) const;
   /// Stable text of the resolved values of the keys declared under these paths ("mineral[].share" stands for that of every
@@ -105,12 +116,24 @@ class Scenario {
     Value value;
     Location where;
     bool given = false;
+    std::string source;  ///< the key that the value comes from, when it is another
   };
   std::string name_, file_, included_, scale_;
   std::map<std::string, Entry, std::less<>> entries_;
   std::map<std::string, std::size_t, std::less<>> counts_;
   [[nodiscard]] const Entry& entry(std::string_view path) const;
 };
+
+/// The file that a scenario names, seen from the scenario's folder; where there is none, and the scenario is a symbolic
+/// link, from the folder of what it leads to.
+std::filesystem::path file_beside(const std::filesystem::path& scenario, const std::filesystem::path& named);
+
+/// Scenarios and what they include are read up to this size, grain maps up to that one.
+constexpr std::uint64_t largest_scenario = std::uint64_t{256} << 10;
+constexpr std::uint64_t largest_map = std::uint64_t{256} << 20;
+
+/// Up to here every whole number is a double: seeds are numbers in records and in summary.json.
+constexpr std::int64_t largest_seed = std::int64_t{1} << 53;
 
 /// The keys that every scenario has: model, title, description, seed, figures.
 std::span<const Key> common_keys();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -24,6 +25,8 @@ struct Unit {
 };
 
 constexpr double degree = std::numbers::pi / 180;
+constexpr double psi = 6894.757293168361;     // Pa: 4.4482216152605 N on (25.4 mm)^2
+constexpr double standard_gravity = 9.80665;  // m/s^2, by which a unit weight is a density
 
 // The first spelling of each unit is the one shown; the others are accepted.
 constexpr auto table = std::to_array<Unit>({
@@ -31,17 +34,44 @@ constexpr auto table = std::to_array<Unit>({
     {"mm", "length", -3},
     {"cm", "length", -2},
     {"um", "length", -6},
-    {"µm", "length", -6},
+    {"µm", "length", -6},  // U+00B5, the micro sign
+    {"μm", "length", -6},  // U+03BC, the Greek letter
     {"km", "length", 3},
+    {"nm", "length", -9},
     {"Pa", "stress"},
     {"kPa", "stress", 3},
     {"MPa", "stress", 6},
     {"GPa", "stress", 9},
+    {"psi", "stress", 0, psi},
+    {"ksi", "stress", 3, psi},
+    {"bar", "stress", 5},
+    {"N/m^2", "stress"},
+    {"N/m2", "stress"},
+    {"N/m²", "stress"},
+    {"kN/m^2", "stress", 3},
+    {"kN/m2", "stress", 3},
+    {"kN/m²", "stress", 3},
+    {"MN/m^2", "stress", 6},
+    {"MN/m2", "stress", 6},
+    {"MN/m²", "stress", 6},
+    {"N/mm^2", "stress", 6},
+    {"N/mm2", "stress", 6},
+    {"N/mm²", "stress", 6},
+    {"kN/mm^2", "stress", 9},
+    {"kN/mm2", "stress", 9},
+    {"kN/mm²", "stress", 9},
     {"kg/m^3", "density"},
     {"kg/m3", "density"},
     {"kg/m³", "density"},
     {"g/cm^3", "density", 3},
     {"g/cm3", "density", 3},
+    {"g/cm³", "density", 3},
+    {"t/m^3", "density", 3},
+    {"t/m3", "density", 3},
+    {"t/m³", "density", 3},
+    {"kN/m^3", "density", 3, 1 / standard_gravity},
+    {"kN/m3", "density", 3, 1 / standard_gravity},
+    {"kN/m³", "density", 3, 1 / standard_gravity},
     {"rad", "angle"},
     {"deg", "angle", 0, degree},
     {"°", "angle", 0, degree},
@@ -50,12 +80,14 @@ constexpr auto table = std::to_array<Unit>({
     {"ms", "time", -3},
     {"us", "time", -6},
     {"µs", "time", -6},
+    {"μs", "time", -6},
     {"min", "time", 0, 60},
     {"h", "time", 0, 3600},
     {"m/s", "velocity"},
     {"mm/s", "velocity", -3},
     {"m/s^2", "acceleration"},
     {"m/s2", "acceleration"},
+    {"m/s²", "acceleration"},
     {"1/s", "rate"},
     {"N", "force"},
     {"kN", "force", 3},
@@ -79,6 +111,7 @@ constexpr auto table = std::to_array<Unit>({
     {"kJ", "energy", 3},
     {"J/m^2", "energy per area"},
     {"J/m2", "energy per area"},
+    {"J/m²", "energy per area"},
 });
 
 const Unit* find(std::string_view name) {
@@ -129,6 +162,30 @@ std::size_t number_end(std::string_view text) {
   return after > digits ? after : end;
 }
 
+/// What was meant by "50,0 GPa", or by "1,000 MPa": "write ...".
+std::string without_comma(std::string_view text, const std::string& example) {
+  const std::size_t comma = text.find(',');
+  if (std::ranges::count(text, ',') != 1 || text.find('.') != std::string_view::npos) return example;
+  const std::string before(text.substr(0, comma)), after(text.substr(comma + 1));
+  const std::string point = "write \"" + before + "." + after + "\"";
+  const bool thousands = std::min(after.find_first_not_of("0123456789"), after.size()) == 3;
+  return thousands ? point + ", or \"" + before + after + "\" for thousands" : point;
+}
+
+std::string lower(std::string_view text) {
+  std::string word(text);
+  std::ranges::transform(word, word.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return word;
+}
+
+/// Of units that differ in capitals alone, "MPa" is meant by "mPa"; else the closest.
+std::string nearest_unit(std::string_view name, const std::vector<std::string>& names) {
+  for (const std::string& known : names) {
+    if (lower(known) == lower(name)) return known;
+  }
+  return closest(name, names);
+}
+
 }  // namespace
 
 std::string shortest(double number) {
@@ -157,13 +214,18 @@ std::string in_unit(double si, std::string_view name) {
 std::string units_like(std::string_view name) {
   std::string text(name);
   const Unit& like = declared(name);
+  const auto same = [](const Unit& a, const Unit& b) {
+    return a.dimension == b.dimension && a.power == b.power && a.factor == b.factor;
+  };
   for (const Unit& unit : table) {
-    const bool same = unit.power == like.power && unit.factor == like.factor;
-    const bool ascii = std::ranges::all_of(unit.name, [](unsigned char c) { return c < 128; });
-    if (unit.dimension == like.dimension && !same && ascii) text += ", " + std::string(unit.name);
+    const Unit& first = *std::ranges::find_if(table, [&](const Unit& other) { return same(unit, other); });
+    const bool shown = &first == &unit && !same(unit, like);
+    if (unit.dimension == like.dimension && shown) text += ", " + std::string(unit.name);
   }
   return text;
 }
+
+std::optional<double> read_number(std::string_view text) { return decimal(trimmed(text), 0); }
 
 double read_quantity(std::string_view text, std::string_view unit_name) {
   const Unit& wanted = declared(unit_name);
@@ -171,6 +233,9 @@ double read_quantity(std::string_view text, std::string_view unit_name) {
   const std::string_view whole = trimmed(text);
   const std::size_t end = number_end(whole);
   const std::string quoted = "\"" + std::string(text) + "\"";
+  if (end < whole.size() && whole[end] == ',') {
+    throw InputError(quoted + " has a comma; the decimal sign is a point", without_comma(whole, example));
+  }
   if (end == 0) throw InputError(quoted + " does not begin with a number", example);
   const std::string_view number = whole.substr(0, end);
   const std::string_view name = trimmed(whole.substr(end));
@@ -183,7 +248,7 @@ double read_quantity(std::string_view text, std::string_view unit_name) {
     for (const Unit& known : table) {
       if (known.dimension == wanted.dimension) names.emplace_back(known.name);
     }
-    const std::string near = closest(name, names);
+    const std::string near = nearest_unit(name, names);
     throw InputError(quoted + ": unknown unit '" + std::string(name) + "'",
                      (near.empty() ? "" : "did you mean '" + near + "'? ") + example);
   }

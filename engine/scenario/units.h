@@ -1,5 +1,6 @@
 #pragma once
 // Units of scenario quantities. Values are decimal: "0.35 mm" and "0.00035 m" give the same bits.
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,9 @@ std::string shortest(double number);
 
 /// "mm, m, um": the units of the dimension of `unit`, that one first.
 std::string units_like(std::string_view unit);
+
+/// The number that a text is, with nothing else but blanks; none: it is no number, or has a unit.
+std::optional<double> read_number(std::string_view text);
 
 /// Whether the table has it.
 bool known_unit(std::string_view unit);

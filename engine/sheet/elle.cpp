@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <set>
-#include <sstream>
 #include <unordered_map>
 
 #include "engine/core/errors.h"
+#include "engine/core/files.h"
+#include "engine/scenario/scenario.h"
 
 namespace dem::sheet {
 namespace {
@@ -392,15 +392,8 @@ std::vector<std::string> ElleMap::attribute_names() const {
 ElleMap parse_elle(std::string_view text, const std::string& name) { return Reader(text, name).read(); }
 
 ElleMap read_elle(const std::filesystem::path& file) {
-  std::error_code error;
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file, error)) {
-    throw InputError({file.string(), 0, 0}, "grains.file", "the Elle file cannot be read",
-                     "give the path of an Elle file");
-  }
-  std::ostringstream text;
-  text << in.rdbuf();
-  return parse_elle(text.str(), file.filename().string());
+  const std::string text = read_input(file, largest_map, {file.string(), 0, 0}, "grains.file");
+  return parse_elle(text, file.filename().string());
 }
 
 std::string elle_text(const ElleMap& map) {

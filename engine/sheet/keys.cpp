@@ -49,6 +49,7 @@ std::vector<Key> declare() {
        .help = "grow seeded grains, lay bands, or read an Elle file"},
       {.path = "grains.file",
        .type = KeyType::text,
+       .form = Form::path,
        .standard = "\"\"",
        .affects = Affects::specimen,
        .help = "Elle file for source \"file\", relative to the scenario's folder"},
@@ -267,8 +268,7 @@ Settings read_settings(const Scenario& s) {
   const std::string& file = s.text("grains.file");
   if (r.source == "file") {
     if (file.empty()) throw s.error("grains.file", "no Elle file is named", "source \"file\" reads one: give its path");
-    const std::filesystem::path path(file);
-    r.file = path.is_absolute() ? path : std::filesystem::path(s.file()).parent_path() / path;
+    r.file = file_beside(s.file(), file);
   } else if (!file.empty()) {
     throw s.error("grains.file", "an Elle file is named, but the source is \"" + r.source + "\"",
                   "write grains.source = \"file\" to read it");

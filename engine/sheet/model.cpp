@@ -55,7 +55,8 @@ std::vector<CaseSpec> cases(const Scenario& s) {
     const bool main = solver == s.texts("solvers").front();
     for (const double spread : spreads) {
       if (!main && spread != spreads.front()) continue;  // another solver is set beside the first case
-      Scenario one = s.with("solvers", std::vector<std::string>{solver}).with("disorder.spread", spread);
+      Scenario one = s.with("solvers", std::vector<std::string>{solver})
+                         .with("disorder.spread", spread, swept ? "sweep.spread" : "");
       const Settings settings = read_settings(one);
       std::string id = kind;
       if (swept) id += "_spread_" + id_part(spread);
@@ -75,7 +76,8 @@ std::vector<CaseSpec> cases(const Scenario& s) {
         }
       }
       std::string inputs;
-      if (settings.source == "file") inputs = "map = " + sha256(read_file(settings.file)) + "\n";
+      if (settings.source == "file")
+        inputs = "map = " + sha256(read_input(settings.file, largest_map, {}, "grains.file")) + "\n";
       const auto of = [](const Parameter& parameter, ParameterValue value) {
         return std::pair{std::string(parameter.id), std::move(value)};
       };

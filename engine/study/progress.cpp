@@ -7,6 +7,8 @@
 #include <limits>
 #include <ostream>
 
+#include "engine/core/text.h"
+
 namespace dem {
 namespace {
 
@@ -90,7 +92,7 @@ void ProgressPrinter::write_line(Running& running) {
 void ProgressPrinter::say(const std::string& text) {
   if (mode_ == Mode::quiet) return;
   clear();
-  out_ << text << std::endl;
+  out_ << printable(text, true) << std::endl;
 }
 
 void ProgressPrinter::clear() {

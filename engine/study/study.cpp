@@ -62,7 +62,7 @@ class Runner {
       : study_(study),
         options_(options),
         listener_(listener),
-        folder_(options.output / study.folder()),
+        folder_(inside(options.output, study.folder())),
         outcomes_(study.cases.size()),
         waiting_(study.cases.size(), false),
         free_threads_(std::max(options.threads, 1)) {}
@@ -85,7 +85,9 @@ class Runner {
   }
 
  private:
-  [[nodiscard]] fs::path path_of(const CaseSpec& spec) const { return folder_ / "cases" / spec.id / "results.h5"; }
+  [[nodiscard]] fs::path path_of(const CaseSpec& spec) const {
+    return inside(folder_ / "cases", spec.id) / "results.h5";
+  }
   [[nodiscard]] bool asked(const CaseSpec& spec) const {
     return options_.only_case.empty() || options_.only_case == spec.id;
   }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <tuple>
 
 #include "engine/model/keeper.h"
 #include "engine/texture/genesis/packing.h"
@@ -26,21 +28,36 @@ struct Variant {
   std::string growth, only_mineral;
   double confining_pressure = 0;  ///< Pa
   std::int64_t seed = 1;
-  friend bool operator==(const Variant&, const Variant&) = default;
+  std::optional<std::size_t> extra = {};  ///< the [[extra]] that asks for it; none: the sweeps do
+
+  [[nodiscard]] auto values() const {
+    return std::tie(aspect_ratio, dip, seed_scale, growth, only_mineral, confining_pressure, seed);
+  }
 };
 
 constexpr double degrees = 57.295779513082323;
 // Without the rounding noise of conversions, so that ids and axes read "30" and not "29.999999999999996".
 double tidy(double value) { return std::round(value * 1e9) / 1e9; }
 
+/// The key that a value of a variant comes from, for errors about it; "": the key itself.
+std::string source_of(const Scenario& base, const Variant& v, const std::string& name) {
+  if (v.extra) {
+    const std::string key = fmt::format("extra[{}].{}", *v.extra, name);
+    return base.declares(key) ? key : std::string();
+  }
+  const std::string sweep = "sweep." + name;
+  return base.given(sweep) ? sweep : std::string();
+}
+
 CaseSpec case_of(const Scenario& base, const std::string& test, const Variant& v) {
+  const auto from = [&](const char* name) { return source_of(base, v, name); };
   const double dip = tidy(v.dip * degrees), pressure = tidy(v.confining_pressure * 1e-6);
-  Scenario scenario = base.with("texture.aspect_ratio", v.aspect_ratio)
-                          .with("texture.seed_scale", v.seed_scale)
-                          .with("texture.growth", v.growth)
-                          .with("texture.dip", v.dip)
-                          .with("texture.only_mineral", v.only_mineral)
-                          .with("compression.confining_pressure", v.confining_pressure)
+  Scenario scenario = base.with("texture.aspect_ratio", v.aspect_ratio, from("aspect_ratio"))
+                          .with("texture.seed_scale", v.seed_scale, from("seed_scale"))
+                          .with("texture.growth", v.growth, from("growth"))
+                          .with("texture.dip", v.dip, from("dip"))
+                          .with("texture.only_mineral", v.only_mineral, from("mineral"))
+                          .with("compression.confining_pressure", v.confining_pressure, from("confining_pressure"))
                           .with("seed", v.seed);
   if (const auto resolve = test_entry(test).resolve) scenario = resolve(scenario);
   std::string id = test + "_" + (v.only_mineral.empty() ? "ar_" + id_part(v.aspect_ratio) : id_part(v.only_mineral));
@@ -74,7 +91,7 @@ std::vector<double> swept(const Scenario& s, const std::string& sweep, const std
 std::vector<Variant> variants_of(const Scenario& s) {
   std::vector<Variant> variants;
   const auto add = [&](const Variant& v, const std::string& key) {
-    if (std::find(variants.begin(), variants.end(), v) != variants.end()) {
+    if (std::ranges::any_of(variants, [&](const Variant& other) { return other.values() == v.values(); })) {
       throw s.error(key, "the same specimen is asked for twice", "give each specimen once");
     }
     variants.push_back(v);
@@ -85,6 +102,12 @@ std::vector<Variant> variants_of(const Scenario& s) {
       throw s.error(sweep, "the list is empty", "give at least one value, or leave the key out");
   }
   const auto repeats = s.integer("repeats");
+  if (const std::int64_t room = largest_seed - static_cast<std::int64_t>(s.seed()); repeats - 1 > room) {
+    throw s.error("repeats",
+                  fmt::format("the last of {} seeds from {} on is beyond {}", repeats, s.seed(), largest_seed),
+                  room > 0 ? fmt::format("ask for at most {}, or begin with a smaller seed", room + 1)
+                           : "begin with a smaller seed");
+  }
   const auto add_repeats = [&](Variant v, const std::string& key) {
     for (std::int64_t k = 0; k < repeats; ++k) {
       v.seed = static_cast<std::int64_t>(s.seed()) + k;
@@ -106,7 +129,7 @@ std::vector<Variant> variants_of(const Scenario& s) {
   for (std::size_t i = 0; i < s.count("extra"); ++i) {
     const auto key = [i](const char* name) { return fmt::format("extra[{}].{}", i, name); };
     add_repeats({s.real(key("aspect_ratio")), s.real("texture.dip"), s.real(key("seed_scale")), s.text(key("growth")),
-                 s.text("texture.only_mineral"), s.real("compression.confining_pressure"), 1},
+                 s.text("texture.only_mineral"), s.real("compression.confining_pressure"), 1, i},
                 key("aspect_ratio"));
   }
   return variants;

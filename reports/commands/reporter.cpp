@@ -4,6 +4,7 @@
 
 #include <iostream>
 
+#include "engine/core/text.h"
 #include "reports/commands/machine.h"
 #include "reports/output/report.h"
 
@@ -26,7 +27,7 @@ bool all_well(const std::vector<dem::CaseOutcome>& outcomes) {
   bool well = true;
   for (const dem::CaseOutcome& outcome : outcomes) {
     if (outcome.state == dem::CaseState::failed || outcome.state == dem::CaseState::missing) {
-      std::cerr << "dem-report: case " << outcome.id << " failed: " << outcome.error << "\n";
+      std::cerr << "dem-report: case " << outcome.id << " failed: " << dem::printable(outcome.error, true) << "\n";
       well = false;
     }
     if (!outcome.record) continue;

@@ -118,12 +118,21 @@ std::vector<ExitCode> exit_codes() {
   return codes;
 }
 
+/// "a/../b" as the path that it is: writers refuse to leave a folder that they have gone into.
+std::filesystem::path output_folder(const std::filesystem::path& given) {
+  const bool up = std::ranges::find(given, std::filesystem::path("..")) != given.end();
+  if (!up || given.lexically_normal() == given) return given;
+  std::error_code error;
+  const std::filesystem::path straight = std::filesystem::weakly_canonical(given, error);
+  return error ? given : straight;
+}
+
 }  // namespace
 
 RunRequest run_request(const Arguments& arguments) {
   RunRequest request;
   request.scenarios = arguments.words("SCENARIO");
-  request.output = arguments.text("output");
+  request.output = output_folder(arguments.text("output"));
   request.scale = arguments.text("scale");
   request.threads = threads(arguments);
   request.overrides = overrides(arguments);

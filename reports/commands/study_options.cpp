@@ -7,6 +7,22 @@
 #include "engine/core/errors.h"
 
 namespace cli {
+namespace {
+
+dem::Study read_one(const std::string& file, const std::string& scale, std::span<const std::string> overrides,
+                    bool of_several) {
+  try {
+    return dem::read_study(file, scale, overrides, dem::models());
+  } catch (const dem::InputError& error) {
+    if (!of_several || error.where().file != "--set") throw;
+    // The same --set may serve the other scenarios.
+    dem::Location where = error.where();
+    where.file = file + ": --set";
+    throw dem::InputError(where, error.key(), error.wrong(), error.right());
+  }
+}
+
+}  // namespace
 
 Positional scenario_positional() {
   return {.name = "SCENARIO", .help = "scenario files", .ending = ".toml", .most = Positional::any_number};
@@ -74,7 +90,7 @@ std::vector<dem::Study> read_studies(std::span<const std::string> files, const s
   std::vector<dem::Study> studies;
   std::set<std::string> folders;
   for (const std::string& file : files) {
-    dem::Study study = dem::read_study(file, scale, overrides, dem::models());
+    dem::Study study = read_one(file, scale, overrides, files.size() > 1);
     if (!folders.insert(study.folder()).second) {
       throw dem::InputError(dem::Location{file, 0, 0}, {}, "another scenario of the same name is given",
                             "run them one by one, with different --output folders");

@@ -3,11 +3,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <string_view>
 
 namespace reports {
 namespace {
 
-std::string field(const std::string& text) {
+/// "-3", "+4.68 %": a number as a spreadsheet reads it.
+bool is_number(std::string_view text) {
+  if (text.ends_with(" %")) text.remove_suffix(2);
+  if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() && !text.starts_with('-');
+}
+
+std::string field(std::string text) {
+  // A spreadsheet would compute what begins so; with an apostrophe it is text.
+  const bool formula = !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
+  if (formula && !is_number(text)) text.insert(0, 1, '\'');
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) {

@@ -21,14 +21,16 @@ namespace {
 
 constexpr std::size_t points_in_a_picture = 10000;
 
-const Figure& named_figure(const StudyResult& study, std::string_view id) {
+/// `key` is what names it: the key "figures" or the option --only.
+const Figure& named_figure(const StudyResult& study, std::string_view id, const std::string& key) {
   std::vector<std::string> known;
   for (const Figure& figure : figures()) {
     if (figure.model != study.scenario->model()) continue;
     if (figure.id == id) return figure;
     known.emplace_back(figure.id);
   }
-  throw dem::InputError("there is no figure '" + std::string(id) + "' of this model", "known are " + listed(known));
+  throw study.scenario->error(key, "there is no figure '" + std::string(id) + "' of this model",
+                              "known are " + listed(known));
 }
 
 /// A panel on its way to its files.
@@ -85,17 +87,18 @@ DrawnPanel described(const Panel& panel, const std::string& name) {
 
 // Writes the files of a panel.
 render::SceneResult draw(const Job& job, const std::filesystem::path& folder, const CanvasSource& canvas) {
-  const auto files = files_of(*job.panel, job.name);
+  std::vector<std::filesystem::path> files;
+  for (const std::string& file : files_of(*job.panel, job.name)) files.push_back(dem::inside(folder, file));
   render::SceneResult result;
   if (const auto* chart = std::get_if<render::Chart>(&job.panel->content)) {
-    canvas().draw(sampled(*chart, points_in_a_picture).chart, folder / files[1], folder / files[0], job.facts);
-    dem::write_file(folder / files[2], csv(*chart));
+    canvas().draw(sampled(*chart, points_in_a_picture).chart, files[1], files[0], job.facts);
+    dem::write_file(files[2], csv(*chart));
   } else if (const auto* picture = std::get_if<Picture>(&job.panel->content)) {
-    result = canvas().draw(picture->scene, folder / files[0], job.facts);
+    result = canvas().draw(picture->scene, files[0], job.facts);
   } else if (const auto* table = std::get_if<TextTable>(&job.panel->content)) {
-    dem::write_file(folder / files[0], csv(*table));
+    dem::write_file(files[0], csv(*table));
   } else {
-    dem::write_file(folder / files[0], std::get<std::string>(job.panel->content));
+    dem::write_file(files[0], std::get<std::string>(job.panel->content));
   }
   return result;
 }
@@ -192,9 +195,9 @@ render::Band thinned(const render::Band& band, std::size_t points) {
 }  // namespace
 
 ChosenFigures chosen_figures(const StudyResult& study, const std::string& only) {
-  if (!only.empty()) return {{&named_figure(study, only)}};
+  if (!only.empty()) return {{&named_figure(study, only, "--only")}};
   std::vector<const Figure*> chosen;
-  for (const std::string& id : study.scenario->texts("figures")) chosen.push_back(&named_figure(study, id));
+  for (const std::string& id : study.scenario->texts("figures")) chosen.push_back(&named_figure(study, id, "figures"));
   if (!chosen.empty()) return {chosen};
   for (const Figure& figure : figures()) {
     if (figure.model == study.scenario->model()) chosen.push_back(&figure);

@@ -17,9 +17,9 @@ void put(Json& object, std::string_view name, Json value) {
     put(object[std::string(name.substr(0, dot))], name.substr(dot + 1), std::move(value));
 }
 
-// Counts are written as whole numbers.
+// Counts and seeds are written as whole numbers, as far as a double holds every one.
 Json plain(double value) {
-  if (std::floor(value) == value && std::abs(value) < 9e15) return static_cast<std::int64_t>(value);
+  if (std::floor(value) == value && std::abs(value) <= 0x1p53) return static_cast<std::int64_t>(value);
   return value;
 }
 
@@ -44,6 +44,10 @@ Json or_null(const std::optional<T>& value) {
 Json case_json(const CaseResult& result) {
   Json json{{"id", result.id}, {"parameters", Json::object()}, {"results", Json::object()}};
   for (const auto& [id, value] : result.parameters) put(json["parameters"], id, plain(value));
+  // The record has the seed whole. Where a double would lose digits it is a text.
+  if (result.record && result.record->seed > std::uint64_t{1} << 53) {
+    json["parameters"]["seed"] = std::to_string(result.record->seed);
+  }
   if (!result.record) {
     json["error"] = result.error;
     return json;

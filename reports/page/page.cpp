@@ -1,5 +1,8 @@
 #include "reports/page/page.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "engine/core/errors.h"
@@ -39,6 +42,23 @@ std::string command(const StudyResult& study, const ReportOptions& options) {
          std::to_string(scenario.seed());
 }
 
+/// Words of a comment that no line holds are cut: to break one of 20,000 letters takes WeasyPrint minutes.
+std::string with_short_words(std::string_view text) {
+  constexpr std::size_t most = 300;
+  std::string shown;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of(" \n\t,"), text.size());
+    std::size_t kept = std::min(end, most);
+    while (kept < end && kept > 0 && (static_cast<unsigned char>(text[kept]) & 0xc0) == 0x80)
+      --kept;  // whole characters
+    shown += text.substr(0, kept);
+    if (kept < end) shown += fmt::format("... ({} bytes more)", end - kept);
+    if (end < text.size()) shown += text[end];
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return shown;
+}
+
 }  // namespace
 
 std::string page(const StudyResult& study, const Comparisons& comparisons, const std::vector<DrawnFigure>& figures,
@@ -72,7 +92,7 @@ std::string page(const StudyResult& study, const Comparisons& comparisons, const
       const std::string name = std::filesystem::path(scenario.included()).filename().string();
       text += "\n# Included: " + name + "\n" + dem::read_file(scenario.included());
     }
-    data.set("scenario_text", text);
+    data.set("scenario_text", with_short_words(text));
   }
   return pattern.render(data);
 }

@@ -1,5 +1,6 @@
 // The program as used, with wrong input: exit codes, what is said, and that nothing is written.
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -11,6 +12,8 @@
 namespace {
 
 const std::string scenario = DEM_SOURCE_DIR "/scenarios/ldb_aspect_ratio.toml";
+const std::string minerals = DEM_SOURCE_DIR "/scenarios/ldb_minerals.toml";
+const std::string elle = DEM_SOURCE_DIR "/scenarios/elle_polycrystal.toml";
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
@@ -82,6 +85,16 @@ TEST_CASE("wrong usage and wrong input exit with 2, say what would be right, and
   const test::Scratch folder;
   std::ofstream(folder / "typo.toml") << "model = \"grain_texture\"\nseeds = 2\n[scales.draft]\n";
   std::filesystem::create_directory(folder / "folder");
+  std::filesystem::copy_file(scenario, folder / "caf\xe9.toml");
+  REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  const std::string rock = "include = \"" DEM_SOURCE_DIR "/scenarios/rocks/my_rock.toml\"\n";
+  const std::string specimen = "[specimen]\ndiameter = \"9 mm\"\nheight = \"18 mm\"\n[scales.draft]\n";
+  std::ofstream(folder / "sweep.toml") << rock << "tests = [\"genesis\"]\nsweep.mineral = [\"gold\"]\n"
+                                       << "model = \"grain_texture\"\n"
+                                       << specimen;
+  std::ofstream(folder / "figures.toml") << rock << "figures = [\"x\"]\ntests = [\"genesis\"]\n"
+                                         << "model = \"grain_texture\"\n"
+                                         << specimen;
   struct Bad {
     std::vector<std::string> arguments;
     std::string said;
@@ -89,8 +102,8 @@ TEST_CASE("wrong usage and wrong input exit with 2, say what would be right, and
   const std::vector<Bad> all = {
       {{}, "no scenario is given; write dem-report SCENARIO.toml"},
       {{"--treads", "2", scenario}, "did you mean '--threads'?"},
-      {{"nowhere.toml"}, "nowhere.toml: there is no such file; the scenarios there are: typo.toml"},
-      {{"run", "nowhere.toml"}, "nowhere.toml: there is no such file; the scenarios there are: typo.toml"},
+      {{"nowhere.toml"}, "nowhere.toml: there is no such file; the scenarios there are: "},
+      {{"run", "nowhere.toml"}, "nowhere.toml: there is no such file; the scenarios there are: "},
       {{"nowhere"}, "nowhere: there is no such scenario file, and no such verb"},
       {{"typo"}, "did you mean the file 'typo.toml'?"},
       {{"help", "figure"}, "figure: unknown verb; did you mean 'figures'?"},
@@ -107,6 +120,35 @@ TEST_CASE("wrong usage and wrong input exit with 2, say what would be right, and
       {{scenario, "typo.toml"}, "typo.toml:2:1: seeds: unknown key"},
       {{scenario, scenario}, "another scenario of the same name"},
       {{scenario, "--set", "sweep.aspect_ratio=[]"}, "the list is empty"},
+      // Several scenarios: which of them refuses.
+      {{scenario, minerals, "--scale", "smoke", "--set", "extra[0].growth=\"most_contacts\""},
+       minerals + ": --set: extra[0].growth: no such entry"},
+      {{scenario, minerals, "--scale", "smoke", "--only", "dip_clusters2"}, scenario + ": --only: there is no figure"},
+      {{"figures.toml"}, "figures.toml:2:1: figures: there is no figure 'x'"},
+      // Names that become folders and files.
+      {{minerals, "--scale", "smoke", "--set", "sweep.mineral=[\"../../../../../X\"]"},
+       "--set: sweep.mineral[0]: the name \"../../../../../X\" has '.'"},
+      {{minerals, "--scale", "smoke", "--set", "mineral[2].name=\"../../../../../X\""}, "mineral[2].name: the name"},
+      {{minerals, "--scale", "smoke", "--set", "mineral[2].name=\"a\\u0000b\""}, "the control character \\x00"},
+      {{minerals, "--scale", "smoke", "--set", "mineral[2].name=\"" + std::string(300, 'x') + "\""},
+       "has 300 characters; write at most 40"},
+      {{minerals, "--scale", "smoke", "--set", "mineral[2].name=\"Biotite\""},
+       "'biotite' and 'Biotite' give the same name of folders, biotite"},
+      {{scenario, "--set", "title=\"\\u001b[31m\""}, "title: \"\\x1b[31m\" has the control character \\x1b"},
+      {{scenario, "--set", "title=\"" + std::string(20000, 'x') + "\""}, "has 20000 characters; write at most 200"},
+      {{"a\x1b[31m.toml"}, "a\\x1b[31m.toml: there is no such file"},
+      {{"caf\xe9.toml"}, "caf\\xe9.toml: the name of the file is not UTF-8"},
+      // Files that are none.
+      {{"/dev/zero"}, "/dev/zero: the file is no plain file"},
+      {{"pipe"}, "pipe: the file is no plain file"},
+      {{scenario, "--set", "include=\"/dev/zero\""}, "--set: include: /dev/zero is no plain file"},
+      {{elle, "--scale", "smoke", "--set", "grains.source=\"file\"", "--set", "grains.file=\"/dev/zero\""},
+       "grains.file: the file is no plain file"},
+      // What comes from a sweep has the line of the sweep.
+      {{"sweep.toml"}, "sweep.toml:3:1: sweep.mineral: there is no mineral 'gold'"},
+      {{scenario, "--set", "seed=9007199254740990", "--set", "repeats=10"}, "--set: repeats: the last of 10 seeds"},
+      {{scenario, "--set", "seed=9007199254740993"}, "--set: seed: 9007199254740993 is out of range"},
+      {{scenario, "--set", "specimen.diameter=\"4 mm\""}, "4 mm is too narrow for its particles"},
   };
   const auto files = [&] {
     return std::distance(std::filesystem::recursive_directory_iterator(folder.path()),
@@ -123,4 +165,16 @@ TEST_CASE("wrong usage and wrong input exit with 2, say what would be right, and
     CHECK(has(outcome.err, bad.said));
     CHECK(files() == before);
   }
+}
+
+TEST_CASE("a mineral by any name that may be written has its cases below the output folder") {
+  const test::Scratch folder;
+  const test::Outcome outcome = test::run_program(
+      folder.path(), {minerals, "--scale", "smoke", "--format", "html", "--report-only", "-o", "deep/../out", "--set",
+                      "mineral[2].name=\"K-Quarz ä (1)\"", "--set", "sweep.mineral=[\"K-Quarz ä (1)\"]"});
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 1);  // there is no record to draw from
+  CHECK(has(outcome.err, "case compression_k_quarz_ue4__1_ failed"));
+  CHECK(std::filesystem::exists(folder / "out/ldb_minerals.smoke/summary.json"));
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()) == 1);
 }

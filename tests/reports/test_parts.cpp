@@ -150,6 +150,43 @@ TEST_CASE("run.json nests by dots") {
   CHECK(json.at("wall_s").at("total") == 1.5);
 }
 
+TEST_CASE("text cells that a spreadsheet would compute are made harmless, numbers stay numbers") {
+  for (const auto& [cell, written] : std::vector<std::pair<std::string, std::string>>{
+           {"=1+1", "'=1+1"},
+           {"@SUM(A1)", "'@SUM(A1)"},
+           {"+cmd|' /C calc'!A0", "'+cmd|' /C calc'!A0"},
+           {"-2+3+cmd", "'-2+3+cmd"},
+           {"=HYPERLINK(\"x\",\"y\")", "\"'=HYPERLINK(\"\"x\"\",\"\"y\"\")\""},
+           {"-", "'-"},
+           {"--1", "'--1"},
+           {"-1.5e-07", "-1.5e-07"},
+           {"+3", "+3"},
+           {"+4.68 %", "+4.68 %"},
+           {"\u22121.5", "\u22121.5"},
+           {"quartz", "quartz"}}) {
+    CHECK(reports::csv(reports::TextTable{{cell}, {}}) == written + "\r\n");
+  }
+}
+
+TEST_CASE("seeds are whole in summary.json: as numbers while a double holds them, as text beyond") {
+  const test::Scratch scratch;
+  const dem::Scenario scenario = synthetic::scenario(scratch.path());
+  for (const auto& [seed, written] :
+       std::vector<std::pair<std::uint64_t, std::string>>{{1, "1"},
+                                                          {std::uint64_t{1} << 53, "9007199254740992"},
+                                                          {(std::uint64_t{1} << 53) + 1, "\"9007199254740993\""},
+                                                          {18446744073709551615U, "\"18446744073709551615\""}}) {
+    dem::Record record;
+    record.seed = seed;
+    record.parameters = {{"test", "compression"}, {"seed", static_cast<double>(seed)}};
+    const reports::StudyResult study{.scenario = &scenario,
+                                     .cases = {{"a", record.parameters, &record, ""}},
+                                     .quantities = dem::texture::quantities(),
+                                     .parameters = dem::texture::parameters()};
+    CHECK(reports::summary_json(study, {"", "", {}}, {}).find("\"seed\": " + written + "\n") != std::string::npos);
+  }
+}
+
 TEST_CASE("cases are told apart by what sets them apart") {
   const test::Scratch scratch;
   const dem::Scenario scenario = synthetic::scenario(scratch.path());

@@ -1,6 +1,7 @@
 // Random streams, content hashes and base64 against published values; cells and orders of
 // points; instruction sets.
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +12,13 @@
 #include "engine/core/base64.h"
 #include "engine/core/cell_grid.h"
 #include "engine/core/errors.h"
+#include "engine/core/files.h"
 #include "engine/core/hash.h"
 #include "engine/core/instruction_set.h"
 #include "engine/core/random.h"
 #include "engine/core/space_filling.h"
+#include "engine/core/text.h"
+#include "tests/support/scratch.h"
 
 TEST_CASE("Philox 4x32-10 gives the known answers of Random123") {
   CHECK(dem::philox({0, 0, 0, 0}, {0, 0}) ==
@@ -162,4 +166,67 @@ TEST_CASE("the set with which work takes least time is found") {
     CHECK(sum >= 0);
     if (dem::instruction_sets().size() == 1) CHECK(calls == 0);
   }
+}
+
+TEST_CASE("nothing is written outside its folder") {
+  const test::Scratch folder;
+  const std::filesystem::path out = folder / "out";
+  for (const std::string& name : {std::string("../x"), std::string("a/../../x"), std::string("/tmp/x"), std::string(""),
+                                  std::string(".."), std::string("a\0b", 3)}) {
+    CAPTURE(name);
+    CHECK_THROWS_AS((void)dem::inside(out, name), dem::EnvironmentError);
+  }
+  CHECK(dem::inside(out, "a/b.csv") == out / "a/b.csv");
+  for (const std::string& name : {std::string("../x"), std::string("a/../../x"), std::string("a\0b", 3)}) {
+    CAPTURE(name);
+    CHECK_THROWS_AS(dem::write_file(out / name, "x"), dem::EnvironmentError);
+    CHECK_THROWS_AS(dem::make_folder(out / name), dem::EnvironmentError);
+  }
+  CHECK(std::filesystem::is_empty(folder.path()));
+  // A folder above is one that was asked for.
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::create_directory(out);
+  std::filesystem::current_path(out);
+  dem::write_file("../beside/x", "x");
+  std::filesystem::current_path(before);
+  CHECK(dem::read_file(folder / "beside/x") == "x");
+}
+
+TEST_CASE("a temporary name is looked for a thousand times, not for ever") {
+  const test::Scratch folder;
+  const std::string head = ".x." + std::to_string(::getpid()) + "-";
+  for (int i = 0; i < 1000; ++i) std::filesystem::create_directory(folder / (head + std::to_string(i) + ".part"));
+  CHECK_THROWS_WITH_AS(dem::write_file(folder / "x", "x"), doctest::Contains("are taken; remove them"),
+                       dem::EnvironmentError);
+  std::filesystem::remove(folder / (head + "999.part"));
+  dem::write_file(folder / "x", "x");
+  CHECK(dem::read_file(folder / "x") == "x");
+}
+
+TEST_CASE("files of people are regular ones below a size") {
+  const test::Scratch folder;
+  dem::write_file(folder / "x", "0123456789");
+  CHECK(dem::read_input(folder / "x", 10) == "0123456789");
+  const auto refused = [&](const std::filesystem::path& path, const char* said) {
+    CHECK_THROWS_WITH_AS((void)dem::read_input(path, 9, {"s.toml", 3, 1}, "grains.file"), doctest::Contains(said),
+                         dem::InputError);
+  };
+  refused(folder / "x", "s.toml:3:1: grains.file:");
+  refused(folder / "x", "has 10 bytes; at most 9 are read");
+  refused(folder / "y", "No such file");
+  refused(folder.path(), "is no plain file");
+  refused("/dev/zero", "is no plain file");
+}
+
+TEST_CASE("what acts on a terminal is shown, not done") {
+  CHECK(dem::printable("a \x1b[2J\x07\x7f b") == "a \\x1b[2J\\x07\\x7f b");
+  CHECK(dem::printable("a\nb") == "a\\x0ab");
+  CHECK(dem::printable("a\nb", true) == "a\nb");
+  CHECK(dem::printable("\xc2\x9b \xe2\x80\xae \xff") == "\\u009b \\u202e \\xff");
+  CHECK(dem::printable("Größe σ 石英") == "Größe σ 石英");
+  CHECK(dem::is_utf8("Größe"));
+  for (const char* text : {"\xe9", "\xc0\xaf", "\xed\xa0\x80", "\xf5\x80\x80\x80", "\xe2\x80"}) {
+    CHECK_FALSE(dem::is_utf8(text));
+  }
+  CHECK(dem::length_of("Größe") == 5);
 }

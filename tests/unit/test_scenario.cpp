@@ -66,6 +66,27 @@ TEST_CASE("the same quantity in any of its units is the same double") {
   CHECK(dem::read_quantity("9.81 m/s^2", "m/s^2") == 9.81);
 }
 
+TEST_CASE("units as people write them") {
+  struct Line {
+    const char *text, *unit;
+    double si;
+  };
+  for (const Line& line :
+       {Line{"350 \u00b5m", "mm", 0.00035},  // the micro sign
+        Line{"350 \u03bcm", "mm", 0.00035},  // the Greek letter
+        Line{"350000 nm", "mm", 0.00035}, Line{"3 \u03bcs", "s", 3e-6}, Line{"58000 N/mm2", "GPa", 5.8e10},
+        Line{"58000 N/mm²", "GPa", 5.8e10}, Line{"58000 N/mm^2", "GPa", 5.8e10}, Line{"58 kN/mm²", "GPa", 5.8e10},
+        Line{"10 MN/m2", "MPa", 1e7}, Line{"2.63 g/cm3", "kg/m^3", 2630}, Line{"2.63 g/cm³", "kg/m^3", 2630},
+        Line{"2.63 t/m³", "kg/m^3", 2630}, Line{"26.47796 kN/m3", "kg/m^3", 2700.0005},
+        Line{"26.47796 kN/m³", "kg/m^3", 2700.0005}, Line{"1000 psi", "MPa", 6894757.293168361},
+        Line{"1 ksi", "MPa", 6894757.293168361}, Line{"100 bar", "MPa", 1e7}, Line{"9.81 m/s²", "m/s^2", 9.81}}) {
+    CAPTURE(line.text);
+    CHECK(dem::read_quantity(line.text, line.unit) == doctest::Approx(line.si).epsilon(1e-6));
+  }
+  CHECK(dem::units_like("MPa") == "MPa, Pa, kPa, GPa, psi, ksi, bar");
+  CHECK(dem::units_like("kg/m^3") == "kg/m^3, g/cm^3, kN/m^3");
+}
+
 TEST_CASE("quantities that are none are refused") {
   for (const char* text :
        {"", "mm", "1.2.3 mm", "1e mm", "--1 mm", "1 mm mm", "nan mm", "inf mm", "1,5 mm", "1e999 mm"}) {
@@ -113,12 +134,13 @@ TEST_CASE("a model's own check names the line of the value, of the table for a l
   CHECK(scenario.error("mineral[1].share", "wrong", "right").where().line == 12);
   CHECK(scenario.error("mineral", "wrong", "right").where().line == 8);
   CHECK(scenario.error("sweep", "wrong", "right").where().line == 16);
-  CHECK(std::string(scenario.error("specimen.height", "a", "b").what()).ends_with("study.toml: specimen.height: a; b"));
+  CHECK(std::string(scenario.error("specimen.height", "a", "b").what())
+            .ends_with("study.toml:4:1: specimen.height: a; b"));
 }
 
 TEST_CASE("the text of --explain-keys has every key with unit, range, default and help") {
   const std::string text = dem::explain(test::keys_of("rock"));
-  CHECK(text.find("[specimen]\n  diameter: quantity in mm, m, cm, um, km, 1 to 500 mm, required\n"
+  CHECK(text.find("[specimen]\n  diameter: quantity in mm, m, cm, um, km, nm, 1 to 500 mm, required\n"
                   "      of the cylinder\n") != std::string::npos);
   CHECK(text.find("[[mineral]]\n") != std::string::npos);
   CHECK(text.find("shape: text, one of cylinder, prism, default \"cylinder\"") != std::string::npos);

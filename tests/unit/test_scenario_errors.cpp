@@ -1,6 +1,8 @@
 // Bad scenarios, one kind a row: where it is (line), which key, what is wrong, what would be right.
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
+#include <filesystem>
 #include <optional>
 
 #include "tests/unit/scenario_keys.h"
@@ -28,6 +30,12 @@ std::optional<dem::InputError> error_of(const Bad& bad) {
     return error;
   }
   return {};
+}
+
+std::string many(const std::string& word, int times) {
+  std::string text;
+  for (int i = 0; i < times; ++i) text += word;
+  return text;
 }
 
 std::vector<Bad> bad_scenarios() {
@@ -82,7 +90,7 @@ std::vector<Bad> bad_scenarios() {
        changed(good, "\"25 mm\"", "\"25 MPa\""),
        5,
        "specimen.diameter",
-       {"in units of stress, but length is needed", "(mm, m, cm, um, km)"}},
+       {"in units of stress, but length is needed", "(mm, m, cm, um, km, nm)"}},
       {"unknown unit",
        changed(good, "\"0.3 GPa\"", "\"0.3 Gpa\""),
        13,
@@ -133,7 +141,7 @@ std::vector<Bad> bad_scenarios() {
        changed(good, diameter, diameter + "\nperiodic = \"yes\""),
        6,
        "specimen.periodic",
-       {"wrong type: the text \"yes\"", "true or false, without quotes"}},
+       {"wrong type: the text \"yes\"", "write true, without quotes"}},
       {"number where a text is needed",
        changed(good, "\"A study\"", "12"),
        2,
@@ -234,6 +242,189 @@ std::vector<Bad> bad_scenarios() {
        21,
        "scales.paper",
        {"write a table, [scales.paper]"}},
+      {"control character in a title",
+       changed(good, "A study", "A \\u001b[31mstudy"),
+       2,
+       "title",
+       {"has the control character \\x1b", "leave it out"}},
+      {"line end in a title", changed(good, "A study", "A\\nstudy"), 2, "title", {"control character \\x0a"}},
+      {"mark that turns the direction of writing",
+       changed(good, "A study", "A \\u202estudy"),
+       2,
+       "title",
+       {"control character \\u202e"}},
+      {"long title", changed(good, "A study", many("word ", 41)), 2, "title", {"has 205 characters", "at most 200"}},
+      {"long word in a title",
+       changed(good, "A study", std::string(150, 'a')),
+       2,
+       "title",
+       {"a word of 150 characters", "at most 60"}},
+      {"control character in a description",
+       changed(good, "title =", "description = \"a\\u0001b\"\ntitle ="),
+       2,
+       "description",
+       {"control character \\x01"}},
+      {"long description",
+       changed(good, "title =", "description = \"" + many("word ", 1001) + "\"\ntitle ="),
+       2,
+       "description",
+       {"has 5005 characters", "at most 5000"}},
+      {"control character in the name of a file",
+       changed(good, "title =", "include = \"a\\u0000b\"\ntitle ="),
+       2,
+       "include",
+       {"control character \\x00"}},
+      {"control character in a choice",
+       changed(good, diameter, diameter + "\nshape = \"\\u001bc\""),
+       6,
+       "specimen.shape",
+       {"control character \\x1b"}},
+      {"control character in a quantity",
+       changed(good, "\"25 mm\"", "\"25 \\u001bmm\""),
+       5,
+       "specimen.diameter",
+       {"control character \\x1b"}},
+      {"control character in a key",
+       changed(good, diameter, diameter + "\n\"\\u001bc\" = 1"),
+       6,
+       "specimen.\\x1bc",
+       {"unknown key"}},
+      {"name that is a path",
+       changed(good, "\"mica\"", "\"../../../../../X\""),
+       11,
+       "mineral[1].name",
+       {"has '.'", "letters, digits, blanks and - _ ( ) +"}},
+      {"name with a slash", changed(good, "\"mica\"", "\"mi/ca\""), 11, "mineral[1].name", {"has '/'"}},
+      {"name with a NUL",
+       changed(good, "\"mica\"", "\"mi\\u0000ca\""),
+       11,
+       "mineral[1].name",
+       {"has the control character \\x00"}},
+      {"long name",
+       changed(good, "mica", std::string(41, 'm')),
+       11,
+       "mineral[1].name",
+       {"has 41 characters", "at most 40"}},
+      {"empty name", changed(good, "\"mica\"", "\"\""), 11, "mineral[1].name", {"the name is empty"}},
+      {"name that begins with a sign",
+       changed(good, "\"mica\"", "\"-mica\""),
+       11,
+       "mineral[1].name",
+       {"begins with a sign"}},
+      {"name that ends with a blank",
+       changed(good, "\"mica\"", "\"mica \""),
+       11,
+       "mineral[1].name",
+       {"ends with a blank"}},
+      {"name in a sweep that is a path",
+       changed(good, "[sweep]", "[sweep]\nmineral = [\"mica\",\n \"../X\"]"),
+       17,
+       "sweep.mineral[1]",
+       {"has '.'"}},
+      {"bare number in Pa",
+       changed(good, "\"0.3 GPa\"", "50e6"),
+       13,
+       "mineral[1].cohesion",
+       {"the bare number 5e+07 has no unit", "such as \"50 MPa\""}},
+      {"bare fraction of a share",
+       changed(good, "\"60 %\"", "0.17"),
+       9,
+       "mineral[0].share",
+       {"the bare number 0.17 has no unit", "\"17 %\", or \"0.17 %\" if that is meant"}},
+      {"bare share", changed(good, "\"60 %\"", "17"), 9, "mineral[0].share", {"such as \"17 %\""}},
+      {"bare length in m",
+       changed(good, "\"25 mm\"", "0.025"),
+       5,
+       "specimen.diameter",
+       {"the bare number 0.025 has no unit", "such as \"25 mm\""}},
+      {"number of no unit's range", changed(good, "\"25 mm\"", "1e9"), 5, "specimen.diameter", {"from 1 mm to 500 mm"}},
+      {"unit in other capitals",
+       changed(good, "\"0.3 GPa\"", "\"300 mPa\""),
+       13,
+       "mineral[1].cohesion",
+       {"unknown unit 'mPa'", "did you mean 'MPa'?"}},
+      {"decimal comma",
+       changed(good, "\"0.3 GPa\"", "\"50,0 GPa\""),
+       13,
+       "mineral[1].cohesion",
+       {"the decimal sign is a point", "write \"50.0 GPa\""}},
+      {"decimal comma or thousands",
+       changed(good, "\"0.3 GPa\"", "\"1,000 MPa\""),
+       13,
+       "mineral[1].cohesion",
+       {"write \"1.000 MPa\", or \"1000 MPa\" for thousands"}},
+      {"decimal comma of a bare number",
+       changed(good, diameter, diameter + "\nratio = 1,5"),
+       6,
+       "",
+       {"the decimal sign is a point: write ratio = 1.5"}},
+      {"True",
+       changed(good, diameter, diameter + "\nperiodic = True"),
+       6,
+       "",
+       {"write periodic = true, in small letters and without quotes"}},
+      {"False in quotes",
+       changed(good, diameter, diameter + "\nperiodic = \"False\""),
+       6,
+       "specimen.periodic",
+       {"write false, without quotes"}},
+      {"text without quotes",
+       changed(good, "title = \"A study\"", "title = A study"),
+       2,
+       "",
+       {"write title = \"A study\""}},
+      {"quantity without quotes", changed(good, "\"25 mm\"", "25 mm"), 5, "", {"write diameter = \"25 mm\""}},
+      {"seed above 2^63",
+       changed(good, "title", "seed = 9223372036854775808\ntitle"),
+       2,
+       "",
+       {"the number is too large", "seeds up to 9007199254740992"}},
+      {"seed that no double holds",
+       changed(good, "title", "seed = 9007199254740993\ntitle"),
+       2,
+       "seed",
+       {"9007199254740993 is out of range", "from 0 to 9007199254740992"}},
+      {"key with a blank in its quotes",
+       changed(good, "title", "\" seed\" = 1\ntitle"),
+       2,
+       " seed",
+       {"unknown key", "its quotes hold a blank: write seed"}},
+      {"--set of a seed above 2^64", good, 0, "seed", {"the number is too large"}, {"seed=99999999999999999999"}},
+      {"--set of True",
+       good,
+       0,
+       "specimen.periodic",
+       {"write --set specimen.periodic=true, in small letters and without quotes"},
+       {"specimen.periodic=True"}},
+      {"--set of a list of tables", good, 0, "mineral", {"or drop all with mineral=[]"}, {"mineral=[1]"}},
+      {"--set of an entry of a dropped list",
+       good,
+       0,
+       "mineral[0].share",
+       {"mineral has 0 entries"},
+       {"mineral=[]", "mineral[0].share=\"1 %\""}},
+      {"key of a hundred thousand parts",
+       changed(good, "title", many("a.", 100000) + "a = 1\ntitle"),
+       2,
+       "",
+       {"more than 2000 dots"}},
+      {"table of a hundred thousand parts",
+       changed(good, "title", "[" + many("\"=\" . ", 100000) + "a]\ntitle"),
+       2,
+       "",
+       {"more than 2000 dots"}},
+      {"--set of a hundred thousand parts",
+       good,
+       0,
+       "title",
+       {"more than 2000 dots"},
+       {"title={" + many("a.", 100000) + "a=1}"}},
+      {"lists in lists", changed(good, "[1, 2.5]", many("[", 100000)), 16, "", {"not TOML"}},
+      {"model that nobody knows",
+       changed(good, "\"rock\"", "\"" + std::string(5000, 'k') + "\""),
+       1,
+       "model",
+       {"kkk...'"}},
       {"negative seed", changed(good, "title", "seed = -1\ntitle"), 2, "seed", {"-1 is out of range", "from 0 to"}},
       {"--set without value", good, 0, "seed", {"there is no value after '='"}, {"seed="}},
       {"--set without =", good, 0, "seed", {"there is no '='", "--set key=value"}, {"seed"}},
@@ -281,6 +472,80 @@ TEST_CASE("every kind of bad scenario says where, which key, and what would be r
 TEST_CASE("of several mistakes the first in the file is told") {
   const std::string text = changed(changed(good, "\"0.3 GPa\"", "3"), "\"60 %\"", "\"600 %\"");
   CHECK_THROWS_WITH_AS(read(text), doctest::Contains("mineral[0].share"), dem::InputError);
+}
+
+TEST_CASE("what a person may write: names, units, a list that is dropped, a key with a blank before it") {
+  for (const char* name :
+       {"quartz", "K-feldspar", "alkali feldspar (40)", "Glimmer_2", "Hornblende+", "Quarz ä", "石英"}) {
+    CAPTURE(name);
+    CHECK(read(changed(good, "mica", name)).text("mineral[1].name") == name);
+  }
+  CHECK(read(changed(good, "\"A study\"", "\"Größe: σ = 3 “MPa”\"")).text("title") == "Größe: σ = 3 “MPa”");
+  CHECK(read(good, {"title=\"\""}).text("title").empty());
+  CHECK(read(changed(good, "title", "description = \"\"\"one\n\ntwo\"\"\"\ntitle")).text("description") ==
+        "one\n\ntwo");
+  const dem::Scenario none = read(good, {"mineral=[]"});
+  CHECK(none.count("mineral") == 0);
+  CHECK_FALSE(none.declares("mineral[0].share"));
+  CHECK(read(good, {" seed=3"}).integer("seed") == 3);
+  CHECK(read(good, {"seed=9007199254740992"}).seed() == 9007199254740992);
+}
+
+TEST_CASE("files that are none, too large or have a name that no page holds") {
+  const test::Scratch folder;
+  const auto message = [&](const std::string& file) -> std::string {
+    try {
+      dem::Scenario::read(file, "paper", {}, test::keys_of);
+    } catch (const dem::InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  const auto has = [](const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  };
+  CHECK(has(message("/dev/zero"), "is no plain file"));
+  CHECK(has(message("/dev/tty"), "/dev/tty"));
+  REQUIRE(::mkfifo((folder / "pipe.toml").c_str(), 0600) == 0);
+  CHECK(has(message(folder / "pipe.toml"), "is no plain file"));
+  std::ofstream(folder / "large.toml") << good << "#" << std::string(dem::largest_scenario, 'x');
+  CHECK(has(message(folder / "large.toml"), "at most 262144 are read"));
+  for (const auto& [name, wrong] : {std::pair<std::string, std::string>{"caf\xe9.toml", "is not UTF-8"},
+                                    {"a\x1b[2Jb.toml", "has control characters"},
+                                    {std::string(230, 'n') + ".toml", "has 230 bytes"}}) {
+    CAPTURE(wrong);
+    std::ofstream(folder / name) << good;
+    CHECK(has(message(folder / name), wrong));
+  }
+  std::ofstream(folder / "a.toml") << "include = \"pipe.toml\"\n" << good;
+  CHECK(has(message(folder / "a.toml"),
+            "a.toml:1:11: include: " + (folder / "pipe.toml").string() + " is no plain file"));
+  if (std::ifstream("/proc/self/status")) CHECK(has(message("/proc/self/status"), "model"));  // says that it is empty
+}
+
+TEST_CASE("a scenario by a symbolic link finds what lies beside its target") {
+  const test::Scratch folder;
+  std::filesystem::create_directories(folder / "studies/rocks");
+  std::filesystem::create_directory(folder / "mine");
+  std::ofstream(folder / "studies/rocks/rock.toml") << "seed = 7\n";
+  std::ofstream(folder / "studies/study.toml") << "include = \"rocks/rock.toml\"\n" << good;
+  std::filesystem::create_symlink("../studies/study.toml", folder / "mine/link.toml");
+  const dem::Scenario linked = dem::Scenario::read(folder / "mine/link.toml", "paper", {}, test::keys_of);
+  CHECK(linked.name() == "link");
+  CHECK(linked.seed() == 7);
+  // What lies beside the link goes first.
+  std::filesystem::create_directory(folder / "mine/rocks");
+  std::ofstream(folder / "mine/rocks/rock.toml") << "seed = 8\n";
+  CHECK(dem::Scenario::read(folder / "mine/link.toml", "paper", {}, test::keys_of).seed() == 8);
+}
+
+TEST_CASE("an error about a value that comes from elsewhere names that key and its line") {
+  const dem::Scenario made = read(good).with("specimen.ratio", 2.5, "sweep.aspect_ratio");
+  const dem::InputError error = made.error("specimen.ratio", "it is too large", "");
+  CHECK(error.key() == "sweep.aspect_ratio");
+  CHECK(error.where().line == 16);
+  // A default stands for the table that could have had the key.
+  CHECK(read(good).error("specimen.height", "it is too small", "").where().line == 4);
 }
 
 TEST_CASE("a missing file, a folder: the message lists the scenarios that are there") {

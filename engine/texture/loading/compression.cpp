@@ -118,7 +118,7 @@ Test read(const Scenario& scenario) {
 Scenario resolve(const Scenario& scenario) {
   const double rate = scenario.real("compression.confined_rate");
   const bool applies = scenario.real("compression.confining_pressure") > 0 && rate > 0;
-  return applies ? scenario.with("compression.rate", rate) : scenario;
+  return applies ? scenario.with("compression.rate", rate, "compression.confined_rate") : scenario;
 }
 
 }  // namespace
