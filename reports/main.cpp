@@ -3,13 +3,17 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "engine/core/errors.h"
+#include "reports/commands/last_words.h"
 #include "reports/commands/parse.h"
 #include "reports/commands/table.h"
 
-int main(int argc, char** argv) {
+namespace {
+
+int perform(int argc, char** argv) {
   try {
     const cli::Call call = cli::parse(cli::commands(), std::vector<std::string>(argv + 1, argv + argc));
     return call.command->perform(call.arguments);
@@ -20,8 +24,17 @@ int main(int argc, char** argv) {
     std::cerr << "dem-report: " << error.what() << "\n";
   } catch (const std::bad_alloc&) {
     std::cerr << "dem-report: out of memory; try a smaller --scale\n";
+  } catch (const std::system_error& error) {
+    std::cerr << "dem-report: the machine is in the way: " << error.what() << "\n";
   } catch (const std::exception& error) {
     std::cerr << "dem-report: internal error: " << error.what() << "\n";
   }
   return 3;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cli::prepare_last_words();
+  return cli::leave_with(perform(argc, argv));
 }
