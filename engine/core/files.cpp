@@ -64,8 +64,8 @@ std::string beginning_of(pid_t process) {
 
 /// Who writes a temporary file.
 struct Owner {
-  std::string machine;    // of its name and its id
-  std::string boot;       // of the running kernel and of the processes that see each other
+  std::string machine;  // of its name and its id
+  std::string boot;     // of the running kernel and of the processes that see each other
   pid_t process = 0;
   std::string beginning;  // of the process
 };
@@ -77,7 +77,9 @@ const Owner& this_machine() {
     std::error_code ignored;
     const std::string processes = fs::read_symlink("/proc/self/ns/pid", ignored).string();
     return Owner{sha256(host.data() + std::string("\n") + first_line("/etc/machine-id")).substr(0, 8),
-                 sha256(first_line("/proc/sys/kernel/random/boot_id") + "\n" + processes).substr(0, 8), 0, {}};
+                 sha256(first_line("/proc/sys/kernel/random/boot_id") + "\n" + processes).substr(0, 8),
+                 0,
+                 {}};
   }();
   return owner;
 }

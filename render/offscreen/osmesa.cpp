@@ -46,9 +46,9 @@ struct Offscreen::Context {
     constexpr int side = 64;
     pixels.resize(4 * side * side);
     if (handle == nullptr || OSMesaMakeCurrent(handle, pixels.data(), GL_UNSIGNED_BYTE, side, side) == GL_FALSE)
-      throw dem::EnvironmentError("no off-screen OpenGL 3.3 context from OSMesa, Mesa's software renderer" +
-                                  (environment_settings().empty() ? "; install the package libosmesa6 again"
-                                                                  : environment_settings()));
+      throw dem::EnvironmentError(
+          "no off-screen OpenGL 3.3 context from OSMesa, Mesa's software renderer" +
+          (environment_settings().empty() ? "; install the package libosmesa6 again" : environment_settings()));
   }
   ~Context() {
     if (handle != nullptr) OSMesaDestroyContext(handle);

@@ -44,8 +44,9 @@ void adopt_current_context(vtkGenericOpenGLRenderWindow& window) {
   window.SetAlphaBitPlanes(1);
   window.SetSize(64, 64);
   if (!window.InitializeFromCurrentContext())
-    throw dem::EnvironmentError(std::string("VTK cannot draw with the off-screen OpenGL context; it needs OpenGL 3.2 or later") +
-                                environment_settings());
+    throw dem::EnvironmentError(
+        std::string("VTK cannot draw with the off-screen OpenGL context; it needs OpenGL 3.2 or later") +
+        environment_settings());
 }
 
 std::string Offscreen::renderer() const {

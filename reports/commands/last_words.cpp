@@ -36,8 +36,9 @@ void say(const char* words) {
     try {
       std::rethrow_exception(error);
     } catch (const std::bad_alloc&) {
-      end_with("out of memory; the state of the cases is kept as of their last checkpoints: try a smaller --scale or "
-               "fewer --threads");
+      end_with(
+          "out of memory; the state of the cases is kept as of their last checkpoints: try a smaller --scale or "
+          "fewer --threads");
     } catch (const dem::EnvironmentError& failure) {
       end_with(failure.what());
     } catch (const std::exception& failure) {
@@ -50,8 +51,9 @@ void say(const char* words) {
 
 void on_exit() {
   if (ours) return;
-  end_with("a library ended the program (see above); the machine has no more threads or memory for it: try fewer "
-           "--threads, or raise the limits (ulimit -u, ulimit -v); the last checkpoints are kept");
+  end_with(
+      "a library ended the program (see above); the machine has no more threads or memory for it: try fewer "
+      "--threads, or raise the limits (ulimit -u, ulimit -v); the last checkpoints are kept");
 }
 
 }  // namespace

@@ -16,11 +16,11 @@ struct ReporterOptions {
   std::filesystem::path assets;
   bool html = true;
   bool pdf = true;
-  std::string figure;   ///< draw only this one; "": all
-  int threads = 1;      ///< processes to draw in
-  bool quiet = false;   ///< do not name the files on stdout
-  bool strict = false;  ///< a published number that is missed is not well
-  double pdf_seconds = 900;                ///< WeasyPrint is ended after so long
+  std::string figure;                       ///< draw only this one; "": all
+  int threads = 1;                          ///< processes to draw in
+  bool quiet = false;                       ///< do not name the files on stdout
+  bool strict = false;                      ///< a published number that is missed is not well
+  double pdf_seconds = 900;                 ///< WeasyPrint is ended after so long
   const std::atomic<bool>* stop = nullptr;  ///< asked while drawing and printing
 };
 

@@ -80,13 +80,13 @@ int perform(const Arguments& arguments) {
   const RunRequest request = run_request(arguments);
   const std::vector<dem::Study> studies = checked_studies(request);
   if (request.pdf) reports::check_printing();
-  reports::check_drawing();
   (void)dem::instruction_sets();  // a wrong DEM_SIMD is found before anything runs
   Reporter reporter(reporter_options(request));
   listen_to_signals();
   dem::ProgressPrinter progress = progress_printer(request.quiet);
   bool well = true;
   try {
+    reports::check_drawing([] { return stop_asked().load(); });
     for (const dem::Study& study : studies) {
       progress.start(static_cast<int>(study.cases.size()));
       const auto outcomes = dem::run_study(study, study_options(request), progress_listener(progress));

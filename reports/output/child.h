@@ -16,8 +16,8 @@ struct ChildProgram {
 };
 
 struct ChildEnd {
-  int code = 0;    ///< exit code
-  int signal = 0;  ///< that ended it; 0: none
+  int code = 0;       ///< exit code
+  int signal = 0;     ///< that ended it; 0: none
   bool late = false;  ///< it was ended because its time was over
 };
 

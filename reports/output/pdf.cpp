@@ -78,7 +78,8 @@ std::string find_weasyprint() {
                                 "--format html");
   }
   throw dem::EnvironmentError(
-      "the PDF needs WeasyPrint, and no folder of PATH holds it: run 'apt-get install weasyprint', or leave the PDF out "
+      "the PDF needs WeasyPrint, and no folder of PATH holds it: run 'apt-get install weasyprint', or leave the PDF "
+      "out "
       "with --format html");
 }
 
@@ -88,6 +89,14 @@ std::string last_words(const std::string& said) {
   words = words.substr(std::min(words.find_first_not_of(" \n\r\t"), words.size()));
   words.erase(words.find_last_not_of(" \n\r\t") + 1);
   return words.empty() ? "; it said nothing" : "; it said last: " + harmless(words);
+}
+
+// Without a font Pango crashes, and its last words do not say why.
+void check_fonts(const std::string& said) {
+  if (said.find("No fonts configured") == std::string::npos) return;
+  throw dem::EnvironmentError(
+      "weasyprint found no font: fontconfig knows none; install the package fonts-dejavu-core, or look at "
+      "FONTCONFIG_FILE and FONTCONFIG_PATH");
 }
 
 std::string signal_text(int signal) {
@@ -100,7 +109,8 @@ std::string errors_in(const std::string& log) {
   std::istringstream lines(log);
   std::string errors;
   for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("ERROR") || line.starts_with("CRITICAL")) errors += (errors.empty() ? "" : "; ") + harmless(line);
+    if (line.starts_with("ERROR") || line.starts_with("CRITICAL"))
+      errors += (errors.empty() ? "" : "; ") + harmless(line);
   }
   return errors;
 }
@@ -153,9 +163,10 @@ void check_printing() {
   const std::string_view digits = date;
   constexpr std::size_t most_digits = 11;  // the year 5138: Python's calendar ends with the year 9999
   if (digits.empty() || digits.size() > most_digits || digits.find_first_not_of("0123456789") != std::string::npos) {
-    throw dem::EnvironmentError("the environment variable SOURCE_DATE_EPOCH is '" + harmless(std::string(digits)) +
-                                "', and the date in the PDF is taken from it: let it be a whole number of seconds since "
-                                "1970, or unset it");
+    throw dem::EnvironmentError(
+        "the environment variable SOURCE_DATE_EPOCH is '" + harmless(std::string(digits)) +
+        "', and the date in the PDF is taken from it: let it be a whole number of seconds since "
+        "1970, or unset it");
   }
 }
 
@@ -170,14 +181,14 @@ void print_pdf(const std::string& html, const std::filesystem::path& print_style
     const Temporary log(aside.string() + ".log");
     dem::write_file(source.path(), without_file_links(html));
     const auto whole = [](const std::filesystem::path& path) { return std::filesystem::absolute(path).string(); };
-    const ChildEnd end = run_child({.path = find_weasyprint(),
-                                    .words = {"--pdf-variant", "pdf/ua-1", "--encoding", "utf-8", "--base-url",
-                                              fixed_base, "--stylesheet", whole(print_style), whole(source.path()),
-                                              whole(aside)},
-                                    .environment = environment(),
-                                    .folder = whole(aside).substr(0, whole(aside).find_last_of('/')),
-                                    .log = whole(log.path())},
-                                   limits.seconds, limits.stopped);
+    const ChildEnd end =
+        run_child({.path = find_weasyprint(),
+                   .words = {"--pdf-variant", "pdf/ua-1", "--encoding", "utf-8", "--base-url", fixed_base,
+                             "--stylesheet", whole(print_style), whole(source.path()), whole(aside)},
+                   .environment = environment(),
+                   .folder = whole(aside).substr(0, whole(aside).find_last_of('/')),
+                   .log = whole(log.path())},
+                  limits.seconds, limits.stopped);
     const bool spoke = std::filesystem::exists(log.path());
     const std::string said = spoke ? dem::read_file(log.path()) : "";
     if (end.late) {
@@ -187,6 +198,7 @@ void print_pdf(const std::string& html, const std::filesystem::path& print_style
                                   "--format html" +
                                   last_words(said));
     }
+    check_fonts(said);
     if (end.signal != 0) {
       throw dem::EnvironmentError("weasyprint was ended by " + signal_text(end.signal) + last_words(said));
     }

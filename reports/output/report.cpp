@@ -54,7 +54,7 @@ ReportOutcome make_report(StudyResult study, const ReportOptions& options, const
     }
     if (options.pdf) {
       const std::string html = page(study, comparisons, drawn, options, Images::linked);
-      written("report.pdf", [&](const auto& path) { 
+      written("report.pdf", [&](const auto& path) {
         print_pdf(html, options.assets / "page" / "print.css", path, {options.pdf_seconds, options.stopped});
       });
     }

@@ -22,9 +22,10 @@ struct ProcessEnded : dem::EnvironmentError {
 /// dem::Interrupted is thrown.
 /// Throws dem::EnvironmentError for the first one that a piece threw, std::runtime_error for the first other error, and
 /// ProcessEnded when a process is ended by a signal, dem::EnvironmentError when none can be made. All processes have ended by then.
-std::vector<std::byte> in_processes(std::size_t count, std::size_t size, int workers,
-                                    const std::function<void(std::size_t piece, std::byte* result)>& work,
-                                    const std::function<bool()>& stopped = [] { return false; });
+std::vector<std::byte> in_processes(
+    std::size_t count, std::size_t size, int workers,
+    const std::function<void(std::size_t piece, std::byte* result)>& work,
+    const std::function<bool()>& stopped = [] { return false; });
 
 /// The same with results of a type that is its bytes.
 template <class Result, class Work>

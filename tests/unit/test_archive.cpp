@@ -4,9 +4,9 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <cstdint>
-#include <chrono>
 #include <fstream>
 #include <set>
 
@@ -198,12 +198,8 @@ TEST_CASE("leftovers of a dead process are removed, those of a living one and of
                                      std::filesystem::file_time_type::clock::now() - std::chrono::hours(25));
     std::ofstream(folder / ".data.txt.part") << "of somebody else";
     dem::remove_leftovers(folder.path());
-    const std::set<std::string> stay = {"results.h5",
-                                        name,
-                                        name + ".html",
-                                        ".data.txt." + elsewhere,
-                                        ".new.txt." + before,
-                                        ".data.txt.part"};
+    const std::set<std::string> stay = {
+        "results.h5", name, name + ".html", ".data.txt." + elsewhere, ".new.txt." + before, ".data.txt.part"};
     CHECK(names() == stay);
   });
 }
