@@ -8,6 +8,7 @@ libboost-dev libeigen3-dev libssl-dev librandom123-dev
 weasyprint fonts-dejavu-core"
 test_packages="doctest-dev tidy poppler-utils clang-format python3-jsonschema"
 build="$root/build"
+lock="$root/.build.lock" # beside the build folder, which may have to be removed under it
 jobs=$(nproc 2>/dev/null || echo 2)
 
 say() { echo "$(basename -- "$0"): $*" >&2; }
@@ -69,16 +70,53 @@ build_targets() {
   cmake --build "$build" -j "$jobs" --target "$@" >"$log" 2>&1 </dev/null || stop "$log" "the build failed"
 }
 
+# take_turn: one at a time, the second waits for the first; held as descriptor 9. Where no lock can be made, on a disk that
+# cannot be written, nothing can be built either.
+take_turn() {
+  command -v flock >/dev/null 2>&1 || return 0
+  (umask 022 && : >>"$lock") 2>/dev/null || :
+  if [ -r "$lock" ]; then
+    exec 9<"$lock"
+    flock 9 || :
+  fi
+}
+
+# A copied or moved clone brings a build folder that belongs elsewhere.
+build_is_ours() {
+  [ ! -f "$build/CMakeCache.txt" ] || grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$build/CMakeCache.txt"
+}
+
+# built_by_another: somebody else built here, and we may not; true when their program is there and newer than its sources.
+built_by_another() {
+  [ -d "$build" ] && [ ! -w "$build" ] || return 1
+  if [ -x "$build/dem-report" ] && build_is_ours; then
+    newer=$(find "$root/CMakeLists.txt" "$root/engine" "$root/render" "$root/reports" -type f \
+      -newer "$build/dem-report" -print 2>/dev/null | head -n 1)
+    [ -n "$newer" ] || return 0
+    say "build/ may not be written by $(id -un 2>/dev/null || id -u), and its program is older than $newer;"
+  else
+    say "build/ may not be written by $(id -un 2>/dev/null || id -u), and holds no program for this folder;"
+  fi
+  say "let its owner run $root/dem-report once, or take a clone of your own"
+  exit 3
+}
+
+# check_libraries PROGRAM: a library that was removed after the build is named
+check_libraries() {
+  "$1" version >/dev/null 2>&1 && return 0
+  lost=$(ldd "$1" 2>/dev/null | awk '/not found/ { print $1 }' | sort -u | tr '\n' ' ')
+  [ -z "$lost" ] || {
+    say "the program cannot start: these libraries are missing: $lost"
+    say "install their packages again, or remove $build and start again"
+    exit 3
+  }
+}
+
 prepare_build_folder() {
-  # A copied or moved clone brings a build folder that belongs elsewhere.
-  if [ -f "$build/CMakeCache.txt" ] && ! grep -qx "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$build/CMakeCache.txt"; then
+  take_turn
+  if ! build_is_ours; then
     say "build/ belongs to another folder: made anew"
-    rm -rf "$build"
+    rm -rf "$build" || exit 3
   fi
   mkdir -p "$build" || exit 3
-  # One at a time; the second waits for the first.
-  if command -v flock >/dev/null 2>&1; then
-    exec 9>"$build/.lock"
-    flock 9
-  fi
 }

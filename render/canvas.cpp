@@ -5,6 +5,7 @@
 #include "render/draw.h"
 #include "render/offscreen/offscreen.h"
 #include "render/paper/pixels.h"
+#include "render/paper/text.h"
 #include "render/png.h"
 #include "render/scene/draw.h"
 
@@ -41,6 +42,12 @@ void Canvas::draw(const Chart& chart, const std::filesystem::path& png, const st
 }
 
 bool Canvas::any_made() { return made; }
+
+void Canvas::check_fonts() {
+  for (const bool bold : {false, true}) (void)font_file(bold);
+}
+
+std::string Canvas::settings() { return environment_settings(); }
 
 std::string Canvas::gl_renderer() const { return impl_->offscreen.renderer(); }
 

@@ -27,6 +27,10 @@ class Canvas {
   [[nodiscard]] std::string gl_renderer() const;  ///< for run.json
   /// A process that was forked after this became true cannot draw: the threads of the GL driver stayed behind.
   [[nodiscard]] static bool any_made();
+  /// Throws dem::EnvironmentError when a font that charts need is missing.
+  static void check_fonts();
+  /// The variables of the environment that bear on drawing, "; set here: GALLIUM_DRIVER=softpipe": for messages. "": none.
+  [[nodiscard]] static std::string settings();
 
  private:
   struct Impl;

@@ -1,6 +1,7 @@
 #pragma once
 // What a report is made from besides the records: its options, and the facts of the run.
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -17,6 +18,8 @@ struct ReportOptions {
   std::string command;           ///< how to make it again, one line without paths of this machine: shown in the report
   std::string engine_version;    ///< "0.1.0"
   int workers = 1;               ///< processes to draw in; the same bytes with any number
+  double pdf_seconds = 900;      ///< WeasyPrint is ended after so long
+  std::function<bool()> stopped = [] { return false; };  ///< asked for while drawing and printing
 };
 
 /// What varies between runs of the same input, for run.json: {"host", ...}, {"threads", 2.0}; a dot nests ("wall_s.total").

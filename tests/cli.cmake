@@ -1,9 +1,14 @@
 # The command line: options and verbs as such, then the program as used.
-dem_test(test_options SOURCES cli/test_options.cpp cli/test_assets.cpp LIBRARIES dem_commands)
+dem_test(test_options SOURCES cli/test_options.cpp cli/test_assets.cpp cli/test_last_words.cpp LIBRARIES dem_commands)
 target_compile_definitions(test_options PRIVATE DEM_BUILD_DIR="${PROJECT_BINARY_DIR}")
 dem_test(test_usage SOURCES cli/test_usage.cpp cli/program.cpp LIBRARIES dem_core)
 dem_test(test_runs SOURCES cli/test_runs.cpp cli/program.cpp LIBRARIES dem_core)
-foreach(test test_usage test_runs)
+dem_test(test_tools SOURCES cli/test_tools.cpp cli/program.cpp LIBRARIES dem_core)
+foreach(test test_usage test_runs test_tools)
   target_compile_definitions(${test} PRIVATE DEM_PROGRAM="$<TARGET_FILE:dem-report>")
   add_dependencies(${test} dem-report)
 endforeach()
+
+# The launcher, in clones of its own with a CMake that only pretends. Exit code 77: not on this machine.
+add_test(NAME test_launcher COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/launcher)
+set_tests_properties(test_launcher PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)

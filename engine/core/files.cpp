@@ -7,9 +7,17 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <optional>
 #include <system_error>
+
+#include "engine/core/errors.h"
+#include "engine/core/hash.h"
 
 namespace dem {
 namespace {
@@ -17,7 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what, int code) {
-  throw EnvironmentError("cannot " + what + " " + path.string() + ": " + std::strerror(code));
+  std::string why = std::strerror(code);
+  if (code == EFBIG) why += "; files may not grow larger here (ulimit -f)";
+  throw EnvironmentError("cannot " + what + " " + path.string() + ": " + why);
 }
 
 bool has_nul(const fs::path& path) { return path.native().find('\0') != std::string::npos; }
@@ -50,11 +60,90 @@ class Descriptor {
   int fd_;
 };
 
+std::string first_line(const char* path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  return line;
+}
+
+/// When a process began, in ticks since the boot: with it a number that is given again is told from the first. "": there
+/// is no such process.
+std::string beginning_of(pid_t process) {
+  const std::string line = first_line(("/proc/" + std::to_string(process) + "/stat").c_str());
+  std::size_t at = line.rfind(')');  // the second field, the name, may hold anything
+  for (int field = 2; field < 21 && at != std::string::npos; ++field) at = line.find(' ', at + 1);
+  if (at == std::string::npos) {
+    return ::kill(process, 0) == 0 || errno == EPERM ? "0" : "";  // no /proc: the number has to do
+  }
+  return line.substr(at + 1, line.find(' ', at + 1) - at - 1);
+}
+
+/// Who writes a temporary file.
+struct Owner {
+  std::string machine;  // of its name and its id
+  std::string boot;     // of the running kernel and of the processes that see each other
+  pid_t process = 0;
+  std::string beginning;  // of the process
+};
+
+const Owner& this_machine() {
+  static const Owner owner = [] {
+    std::array<char, 256> host{};
+    if (::gethostname(host.data(), host.size() - 1) != 0) host[0] = 0;
+    std::error_code ignored;
+    const std::string processes = fs::read_symlink("/proc/self/ns/pid", ignored).string();
+    return Owner{sha256(host.data() + std::string("\n") + first_line("/etc/machine-id")).substr(0, 8),
+                 sha256(first_line("/proc/sys/kernel/random/boot_id") + "\n" + processes).substr(0, 8),
+                 0,
+                 {}};
+  }();
+  return owner;
+}
+
+/// The part of a temporary name that stands between the file's own name and the number.
+std::string owner_text() {
+  const Owner& here = this_machine();
+  const pid_t process = ::getpid();  // asked each time: pictures are drawn in forked processes
+  return here.machine + "-" + here.boot + "-" + std::to_string(process) + "-" + beginning_of(process);
+}
+
+/// ".NAME.MACHINE-BOOT-PROCESS-BEGINNING-NUMBER.part" and what follows on ".part"; nothing for other names.
+std::optional<Owner> owner_of(const std::string& name) {
+  const std::size_t end = name.rfind(".part");
+  if (!name.starts_with(".") || end == std::string::npos) return {};
+  if (end + 5 != name.size() && name[end + 5] != '.') return {};
+  const std::size_t begin = name.rfind('.', end - 1) + 1;
+  std::array<std::string, 5> parts;
+  std::size_t at = begin;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::size_t stop = std::min(i + 1 < parts.size() ? name.find('-', at) : end, end);
+    parts[i] = name.substr(at, stop - at);
+    if (parts[i].empty() || at > end) return {};
+    at = stop + 1;
+  }
+  Owner owner{parts[0], parts[1], 0, parts[3]};
+  const auto [stop, wrong] = std::from_chars(parts[2].data(), parts[2].data() + parts[2].size(), owner.process);
+  if (wrong != std::errc{} || *stop != 0 || owner.process <= 0) return {};
+  return owner;
+}
+
+/// True only when no process can be at work on it any more.
+bool is_dead(const Owner& owner, const fs::path& path) {
+  const Owner& here = this_machine();
+  if (owner.machine != here.machine) return false;
+  if (owner.boot == here.boot) return beginning_of(owner.process) != owner.beginning;
+  // Of an earlier boot, or of a container that is gone; one that runs beside this one writes now.
+  std::error_code error;
+  const auto written = fs::last_write_time(path, error);
+  return !error && fs::file_time_type::clock::now() - written > std::chrono::hours(24);
+}
+
 /// An empty file with a name of its own beside `path`, so that processes and threads that share a folder do not meet.
 /// (mkstemp() would make it for one user only, and to ask for the mask of the others is to change it for all threads.)
 fs::path reserve(const fs::path& path) {
-  const std::string head = "." + path.filename().string() + "." + std::to_string(::getpid()) + "-";
-  constexpr int tries = 1000;  // what dead processes of our number left
+  const std::string head = "." + path.filename().string() + "." + owner_text() + "-";
+  constexpr int tries = 1000;
   for (int number = 0; number < tries; ++number) {
     fs::path part = path.parent_path() / (head + std::to_string(number) + ".part");
     const Descriptor file(::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
@@ -174,9 +263,9 @@ void make_folder(const fs::path& path) {
 void remove_leftovers(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-    const std::string name = at->path().filename().string();
+    const std::optional<Owner> owner = owner_of(at->path().filename().string());
     std::error_code ignored;
-    if (name.starts_with(".") && name.ends_with(".part")) fs::remove(at->path(), ignored);
+    if (owner && is_dead(*owner, at->path())) fs::remove(at->path(), ignored);
   }
 }
 

@@ -34,7 +34,9 @@ std::string read_input(const std::filesystem::path& path, std::uint64_t most, co
 /// Makes a folder and those above it; throws EnvironmentError naming it. Refuses what write_aside() refuses.
 void make_folder(const std::filesystem::path& path);
 
-/// Removes what a killed process left of write_aside() in `folder` (files ".NAME.XXXXXX.part"), not in folders below.
+/// Removes what dead processes of this machine left of write_aside() in `folder`, with what they had beside it
+/// (".NAME.OWNER.part", ".NAME.OWNER.part.html", ...), not in folders below. OWNER says machine, boot, process and when
+/// that began: what belongs to a process that lives, or may live (of another machine), stays.
 void remove_leftovers(const std::filesystem::path& folder);
 
 }  // namespace dem

@@ -36,13 +36,19 @@ struct RunContext {
   double checkpoint_seconds = 120;   ///< wall time between checkpoints
   std::function<bool()> stopped = [] { return false; };  ///< asked for: write the checkpoint and throw Interrupted
   std::function<void(const Progress&)> report = [](const Progress&) {};
+  std::function<void(const std::string&)> note = [](const std::string&) {};  ///< what a person has to know of the case
 
   /// For a case that can change their number on its way; others keep to `threads`.
   [[nodiscard]] int threads_now() const { return lent ? lent->load() : threads; }
 };
 
-/// Thrown by a case that was asked to stop; its checkpoint is written.
-struct Interrupted {};
+/// Thrown by a case that was asked to stop, its checkpoint written when there is a state to keep yet; by run_study(), with
+/// how many cases were at hand; and by what draws and prints.
+struct Interrupted {
+  int kept = 0;       ///< cases that go on from their state
+  int from_anew = 0;  ///< cases that begin anew: they were stopped before there was anything to keep
+  int signal = 0;     ///< that ended a process which worked for this one; 0: this one was asked
+};
 
 /// One model of the program; see models().
 struct Model {

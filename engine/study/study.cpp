@@ -68,6 +68,8 @@ class Runner {
         free_threads_(std::max(options.threads, 1)) {}
 
   std::vector<CaseOutcome> run() {
+    remove_leftovers(options_.output / "specimens");
+    for (const CaseSpec& spec : study_.cases) remove_leftovers(path_of(spec).parent_path());
     const int places = count_places();
     free_places_ = places;
     {
@@ -80,7 +82,7 @@ class Runner {
       work();
     }
     if (error_) std::rethrow_exception(error_);
-    if (interrupted_) throw Interrupted{};
+    if (interrupted_) throw Interrupted{.kept = kept_, .from_anew = from_anew_};
     return std::move(outcomes_);
   }
 
@@ -122,6 +124,7 @@ class Runner {
   }
 
   void look_at(std::size_t at) {
+    if (stopped()) throw Interrupted{};
     const CaseSpec& spec = study_.cases[at];
     const fs::path path = path_of(spec);
     OnDisk found = look_up(spec, path, *study_.model);
@@ -183,7 +186,6 @@ class Runner {
     const CaseSpec& spec = study_.cases[at];
     const fs::path checkpoint = path.parent_path() / "checkpoint";
     make_folder(path.parent_path());
-    remove_leftovers(path.parent_path());
     prepare_checkpoint(checkpoint, spec, why);
 
     const Place place(*this, at);
@@ -198,6 +200,10 @@ class Runner {
     context.report = [this, &spec](const Progress& progress) {
       const std::lock_guard lock(mutex_);
       listener_.progress(spec.id, progress);
+    };
+    context.note = [this, &spec](const std::string& note) {
+      const std::lock_guard lock(mutex_);
+      listener_.note(spec.id + ": " + note);
     };
     outcome.record.reset();
     const auto start = std::chrono::steady_clock::now();
@@ -214,6 +220,10 @@ class Runner {
     } catch (const CaseError& failure) {
       outcome.state = CaseState::failed;
       outcome.error = failure.what();
+    } catch (const Interrupted&) {
+      std::error_code ignored;
+      ++(fs::exists(checkpoint, ignored) ? kept_ : from_anew_);
+      throw;
     }
     outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
@@ -242,6 +252,7 @@ class Runner {
   Turns turns_;  // of specimens
   std::atomic<std::size_t> next_ = 0;
   std::atomic<bool> given_up_ = false, interrupted_ = false;
+  std::atomic<int> kept_ = 0, from_anew_ = 0;  // of the interrupted cases
 
   std::mutex mutex_;  // of what follows, and of what is told to the listener
   std::vector<CaseOutcome> outcomes_;

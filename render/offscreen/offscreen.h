@@ -12,6 +12,9 @@ class vtkRenderer;
 
 namespace render {
 
+/// See Canvas::settings().
+std::string environment_settings();
+
 class Offscreen {
  public:
   Offscreen();  ///< throws dem::EnvironmentError

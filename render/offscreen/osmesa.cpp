@@ -10,11 +10,25 @@
 
 namespace render {
 
+namespace {
+
+// OSMesa crashes when it is told to use a driver that it does not have.
+void check_driver() {
+  const char* driver = std::getenv("GALLIUM_DRIVER");
+  if (!driver || driver == std::string("llvmpipe") || driver == std::string("softpipe")) return;
+  throw dem::EnvironmentError("pictures cannot be drawn: the environment variable GALLIUM_DRIVER is '" +
+                              std::string(driver) +
+                              "', and OSMesa, which draws them, has llvmpipe and softpipe; unset it");
+}
+
+}  // namespace
+
 struct Offscreen::Context {
   OSMesaContext handle = nullptr;
   std::vector<unsigned char> pixels;  // OSMesa's own frame; VTK draws into frame buffers of its own
   Context() {
     prepare_environment();
+    check_driver();
     const int wanted[] = {OSMESA_FORMAT,
                           OSMESA_RGBA,
                           OSMESA_DEPTH_BITS,
@@ -33,8 +47,8 @@ struct Offscreen::Context {
     pixels.resize(4 * side * side);
     if (handle == nullptr || OSMesaMakeCurrent(handle, pixels.data(), GL_UNSIGNED_BYTE, side, side) == GL_FALSE)
       throw dem::EnvironmentError(
-          "no off-screen OpenGL 3.3 context from OSMesa; pictures need the package libosmesa6 (Mesa's software "
-          "renderer)");
+          "no off-screen OpenGL 3.3 context from OSMesa, Mesa's software renderer" +
+          (environment_settings().empty() ? "; install the package libosmesa6 again" : environment_settings()));
   }
   ~Context() {
     if (handle != nullptr) OSMesaDestroyContext(handle);

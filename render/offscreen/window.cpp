@@ -21,6 +21,16 @@ namespace render {
 
 void prepare_environment() { setenv("MESA_SHADER_CACHE_DISABLE", "true", 0); }
 
+std::string environment_settings() {
+  std::string text;
+  for (const char* name : {"GALLIUM_DRIVER", "MESA_GL_VERSION_OVERRIDE", "MESA_GLSL_VERSION_OVERRIDE",
+                           "MESA_EXTENSION_OVERRIDE", "MESA_LOADER_DRIVER_OVERRIDE", "LIBGL_DRIVERS_PATH",
+                           "LP_NUM_THREADS", "LP_NATIVE_VECTOR_WIDTH", "LD_PRELOAD"}) {
+    if (const char* value = std::getenv(name)) text += (text.empty() ? "" : ", ") + std::string(name) + "=" + value;
+  }
+  return text.empty() ? text : "; set here, and perhaps the reason: " + text;
+}
+
 // Never vtkRenderWindow::New(): Debian's VTK would open an X display and abort.
 void adopt_current_context(vtkGenericOpenGLRenderWindow& window) {
   window.SetIsDirect(1);
@@ -34,7 +44,9 @@ void adopt_current_context(vtkGenericOpenGLRenderWindow& window) {
   window.SetAlphaBitPlanes(1);
   window.SetSize(64, 64);
   if (!window.InitializeFromCurrentContext())
-    throw dem::EnvironmentError("VTK cannot draw with the off-screen OpenGL context; it needs OpenGL 3.2 or later");
+    throw dem::EnvironmentError(
+        std::string("VTK cannot draw with the off-screen OpenGL context; it needs OpenGL 3.2 or later") +
+        environment_settings());
 }
 
 std::string Offscreen::renderer() const {

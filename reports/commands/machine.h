@@ -8,7 +8,4 @@ namespace cli {
 std::string host_name();       ///< "" when the system does not tell
 std::uint64_t memory_bytes();  ///< of the whole machine
 
-/// Throws dem::EnvironmentError that says how to get WeasyPrint, or how to do without, when it is not there.
-void require_weasyprint();
-
 }  // namespace cli

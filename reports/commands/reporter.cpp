@@ -63,6 +63,8 @@ bool Reporter::report(const dem::Study& study, const std::vector<dem::CaseOutcom
   report.command = command;
   report.engine_version = DEM_VERSION;
   report.workers = options_.threads;
+  report.pdf_seconds = options_.pdf_seconds;
+  if (options_.stop) report.stopped = [stop = options_.stop] { return stop->load(); };
   const auto own_canvas = [&]() -> render::Canvas& {
     if (!canvas_) canvas_.emplace();
     return *canvas_;

@@ -1,5 +1,6 @@
 #pragma once
 // From the outcomes of a study to its report, and to what a person is told about it.
+#include <atomic>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -15,10 +16,12 @@ struct ReporterOptions {
   std::filesystem::path assets;
   bool html = true;
   bool pdf = true;
-  std::string figure;   ///< draw only this one; "": all
-  int threads = 1;      ///< processes to draw in
-  bool quiet = false;   ///< do not name the files on stdout
-  bool strict = false;  ///< a published number that is missed is not well
+  std::string figure;                       ///< draw only this one; "": all
+  int threads = 1;                          ///< processes to draw in
+  bool quiet = false;                       ///< do not name the files on stdout
+  bool strict = false;                      ///< a published number that is missed is not well
+  double pdf_seconds = 900;                 ///< WeasyPrint is ended after so long
+  const std::atomic<bool>* stop = nullptr;  ///< asked while drawing and printing
 };
 
 /// Makes reports one after the other, with one canvas for all.

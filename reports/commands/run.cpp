@@ -15,6 +15,7 @@
 #include "reports/commands/terminal.h"
 #include "reports/commands/verbs.h"
 #include "reports/output/drawing.h"
+#include "reports/output/pdf.h"
 #include "reports/published/papers.h"
 
 namespace cli {
@@ -53,7 +54,26 @@ ReporterOptions reporter_options(const RunRequest& request) {
   options.threads = request.threads;
   options.quiet = request.quiet;
   options.strict = request.strict;
+  options.pdf_seconds = request.pdf_seconds;
+  options.stop = &stop_asked();
   return options;
+}
+
+/// What became of a run that was stopped, and how to go on.
+std::string stopped_text(const dem::Interrupted& interrupted, const std::string& folder) {
+  std::string text = "dem-report: stopped; ";
+  if (interrupted.kept > 0) {
+    text += "finished cases and the state of those at hand are kept in " + folder;
+  } else if (interrupted.from_anew > 0) {
+    text += "finished cases are kept in " + folder;
+  } else {
+    text += "what is finished is kept in " + folder;
+  }
+  if (interrupted.from_anew > 0) {
+    text += interrupted.kept > 0 ? ", but for " + std::to_string(interrupted.from_anew) + " that will begin anew"
+                                 : "; what was at hand had no state to keep yet and begins anew";
+  }
+  return text + ": give the same command to go on\n";
 }
 
 int perform(const Arguments& arguments) {
@@ -62,24 +82,24 @@ int perform(const Arguments& arguments) {
   for (const dem::Study& study : studies) {
     for (const std::string& note : study.notes) std::cerr << "dem-report: note: " << note << "\n";
   }
-  if (request.pdf) require_weasyprint();
+  if (request.pdf) reports::check_printing();
   (void)dem::instruction_sets();  // a wrong DEM_SIMD is found before anything runs
   Reporter reporter(reporter_options(request));
   listen_to_signals();
   dem::ProgressPrinter progress = progress_printer(request.quiet);
   bool well = true;
   try {
+    reports::check_drawing([] { return stop_asked().load(); });
     for (const dem::Study& study : studies) {
       progress.start(static_cast<int>(study.cases.size()));
       const auto outcomes = dem::run_study(study, study_options(request), progress_listener(progress));
       progress.say("drawing the figures and the report");
       well = reporter.report(study, outcomes, command_text(request, study.scenario.file())) && well;
     }
-  } catch (const dem::Interrupted&) {
+  } catch (const dem::Interrupted& interrupted) {
     progress.clear();
-    std::cerr << "dem-report: stopped; finished cases and the state of those at hand are kept in "
-              << request.output.string() << ": give the same command to go on\n";
-    return exit_code_of_signal();
+    std::cerr << stopped_text(interrupted, request.output.string());
+    return interrupted.signal != 0 ? 128 + interrupted.signal : exit_code_of_signal();
   }
   return well ? 0 : 1;
 }
@@ -101,6 +121,13 @@ std::vector<Option> options() {
        .kind = OptionKind::list,
        .standard = "html,pdf",
        .choices = {"html", "pdf"}},
+      {.name = "pdf-timeout",
+       .value = "SECONDS",
+       .help = "the longest that printing the PDF may take",
+       .kind = OptionKind::number,
+       .standard = "900",
+       .low = 1,
+       .high = 86400},
       {.name = "strict", .help = "exit with 1 also when a published number is missed"},
       quiet_option(),
       {.name = "explain-keys", .help = "the same as dem-report keys", .verb = "keys"},
@@ -141,6 +168,7 @@ RunRequest run_request(const Arguments& arguments) {
   const auto& formats = arguments.texts("format");
   request.html = std::ranges::find(formats, "html") != formats.end();
   request.pdf = std::ranges::find(formats, "pdf") != formats.end();
+  request.pdf_seconds = static_cast<double>(arguments.number("pdf-timeout"));
   request.report_only = arguments.has("report-only");
   request.force = arguments.has("force");
   request.quiet = arguments.has("quiet");

@@ -20,6 +20,7 @@ struct RunRequest {
   bool force = false;
   bool html = true;
   bool pdf = true;
+  double pdf_seconds = 0;  ///< --pdf-timeout
   bool quiet = false;
   bool strict = false;
 };

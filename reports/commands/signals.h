@@ -4,8 +4,8 @@
 
 namespace cli {
 
-/// From now on the first SIGINT, SIGTERM or SIGHUP asks the running cases to write their checkpoints and stop; a second
-/// one of the same kind ends the program at once.
+/// From now on the first SIGINT, SIGTERM or SIGHUP asks the running cases to write their checkpoints and stop, and drawing
+/// and printing to end; a second one of the same kind ends the program at once. An ignored SIGHUP (nohup) stays so.
 void listen_to_signals();
 
 /// True once a signal asked for it.

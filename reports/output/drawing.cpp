@@ -11,6 +11,7 @@
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
 #include "engine/core/hash.h"
+#include "engine/model/model.h"
 #include "reports/figures/parts.h"
 #include "reports/output/csv.h"
 #include "reports/output/workers.h"
@@ -110,22 +111,42 @@ Drawn drawn_by(const Job& job, const std::filesystem::path& folder, const Canvas
   return drawn;
 }
 
+// A process that a driver crashed says nothing more: what is set here may tell why.
+template <class Work>
+auto in_drawing_processes(std::size_t count, int workers, const Work& work, const std::function<bool()>& stopped) {
+  try {
+    return in_processes<decltype(work(std::size_t{0}))>(count, workers, work, stopped);
+  } catch (const ProcessEnded& ended) {
+    throw dem::EnvironmentError(ended.what() + render::Canvas::settings());
+  }
+}
+
+// Drawn in processes of their own, be it one: so that a signal, or a GL driver that crashes, can be answered at once.
 // A GL context that was made before a fork is of no use after it: then all is drawn here.
 std::vector<Drawn> draw_all(const std::vector<Job>& jobs, const ReportOptions& options, const CanvasSource& canvas) {
   constexpr std::size_t most = 8;  // each holds a GL driver with its own threads
-  const int workers = std::min(options.workers, static_cast<int>(std::min(jobs.size(), most)));
-  if (workers <= 1 || render::Canvas::any_made()) {
+  if (render::Canvas::any_made()) {
     std::vector<Drawn> all;
-    for (const Job& job : jobs) all.push_back(drawn_by(job, options.folder, canvas));
+    for (const Job& job : jobs) {
+      if (options.stopped()) throw dem::Interrupted{};
+      all.push_back(drawn_by(job, options.folder, canvas));
+    }
     return all;
   }
+  const int workers = std::min(options.workers, static_cast<int>(std::min(jobs.size(), most)));
   std::optional<render::Canvas> own;  // of each process: still empty at the fork
-  return in_processes<Drawn>(jobs.size(), workers, [&](std::size_t i) {
+  const auto one = [&](std::size_t i) {
     return drawn_by(jobs[i], options.folder, [&]() -> render::Canvas& {
       if (!own) own.emplace();
       return *own;
     });
-  });
+  };
+  return in_drawing_processes(jobs.size(), workers, one, options.stopped);
+}
+
+/// What processes that were ended left in the folders.
+void clear(const std::filesystem::path& folder) {
+  for (const auto& place : {folder, folder / "figures", folder / "data"}) dem::remove_leftovers(place);
 }
 
 /// What a figure says, before it is drawn.
@@ -205,6 +226,15 @@ ChosenFigures chosen_figures(const StudyResult& study, const std::string& only) 
   return {chosen, true};
 }
 
+void check_drawing(const std::function<bool()>& stopped) {
+  const auto one = [](std::size_t) {
+    render::Canvas::check_fonts();
+    const render::Canvas canvas;
+    return 0;
+  };
+  if (!render::Canvas::any_made()) in_drawing_processes(1, 1, one, stopped);
+}
+
 Drawings draw_figures(const StudyResult& study, const ChosenFigures& chosen, const ReportOptions& options,
                       const CanvasSource& canvas) {
   const render::Provenance facts{{"Scenario", study.scenario->name()},
@@ -213,9 +243,11 @@ Drawings draw_figures(const StudyResult& study, const ChosenFigures& chosen, con
                                  {"Engine", options.engine_version}};
   dem::make_folder(options.folder / "figures");
   dem::make_folder(options.folder / "data");
+  clear(options.folder);
   Drawings made;
   std::vector<FigureContent> contents;  // jobs point into their panels
   for (const Figure* figure : chosen.figures) {
+    if (options.stopped()) throw dem::Interrupted{};
     DrawnFigure drawn{.figure = figure};
     FigureContent content = content_of(study, *figure, drawn);
     if (chosen.whole_model && std::ranges::all_of(content.panels, is_note)) continue;
@@ -227,7 +259,13 @@ Drawings draw_figures(const StudyResult& study, const ChosenFigures& chosen, con
   for (std::size_t f = 0; f < contents.size(); ++f) {
     for (const Panel& panel : contents[f].panels) jobs.push_back(job_of(*made.figures[f].figure, panel, facts));
   }
-  const std::vector<Drawn> results = draw_all(jobs, options, canvas);
+  std::vector<Drawn> results;
+  try {
+    results = draw_all(jobs, options, canvas);
+  } catch (...) {
+    clear(options.folder);
+    throw;
+  }
   auto job = jobs.begin();
   auto result = results.begin();
   for (std::size_t f = 0; f < contents.size(); ++f) {

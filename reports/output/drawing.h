@@ -43,4 +43,7 @@ Sampled sampled(render::Chart chart, std::size_t points);
 /// A round length of 15 to 40 % of the picture's width.
 ScaleBar scale_bar(const render::SceneResult& drawn);
 
+/// Throws dem::EnvironmentError when this machine cannot draw (fonts, GL context): to be known before anything is simulated.
+void check_drawing(const std::function<bool()>& stopped = [] { return false; });
+
 }  // namespace reports

@@ -1,12 +1,10 @@
 #include "reports/output/pdf.h"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cerrno>
+#include <algorithm>
+#include <cctype>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
@@ -14,6 +12,7 @@
 
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
+#include "reports/output/child.h"
 
 namespace reports {
 namespace {
@@ -36,46 +35,73 @@ class Temporary {
   std::filesystem::path path_;
 };
 
-std::vector<char*> environment() {
-  std::vector<char*> variables;
-  for (char** item = environ; *item; ++item) variables.push_back(*item);
-  if (!std::getenv("SOURCE_DATE_EPOCH")) variables.push_back(const_cast<char*>(fixed_date));
-  variables.push_back(nullptr);
+std::vector<std::string> environment() {
+  std::vector<std::string> variables;
+  for (char** item = environ; *item; ++item) variables.emplace_back(*item);
+  if (!std::getenv("SOURCE_DATE_EPOCH")) variables.emplace_back(fixed_date);
   return variables;
 }
 
 // WeasyPrint names pictures in the PDF by their address: this one is the same wherever the report lies.
 constexpr const char* fixed_base = "file:///proc/self/cwd/";
+constexpr const char* program_name = "weasyprint";
 
-// Runs weasyprint in `folder`, with its messages in `log`; returns its exit status.
-int run_weasyprint(const std::string& folder, const std::string& html, const std::string& style, const std::string& pdf,
-                   const std::string& log) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
-  std::array<std::string, 11> words{"weasyprint", "--pdf-variant", "pdf/ua-1", "--encoding", "utf-8", "--base-url",
-                                    fixed_base,   "--stylesheet",  style,      html,         pdf};
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  pid_t child = 0;
-  const int failed = posix_spawnp(&child, "weasyprint", &actions, nullptr, arguments.data(), environment().data());
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed == ENOENT) {
-    throw dem::EnvironmentError(
-        "weasyprint is not installed: it prints the PDF; install the Debian package weasyprint, "
-        "or ask for the page alone with --format html");
+std::string in_folders(const std::string& folders) {
+  for (std::size_t from = 0; from <= folders.size();) {
+    const std::size_t colon = std::min(folders.find(':', from), folders.size());
+    const std::string folder = colon > from ? folders.substr(from, colon - from) : ".";
+    const std::string program = (std::filesystem::absolute(folder) / program_name).string();
+    if (access(program.c_str(), X_OK) == 0 && !std::filesystem::is_directory(program)) {
+      return program;
+    }
+    from = colon + 1;
   }
-  if (failed != 0) throw dem::EnvironmentError(std::string("weasyprint cannot be started: ") + std::strerror(failed));
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR)
-      throw dem::EnvironmentError(std::string("waiting for weasyprint failed: ") + std::strerror(errno));
+  return {};
+}
+
+std::string usual_folders() {
+  std::string folders(confstr(_CS_PATH, nullptr, 0), '\0');
+  confstr(_CS_PATH, folders.data(), folders.size());
+  return folders.c_str();
+}
+
+// Without PATH (env -i) programs are where the system has them.
+std::string find_weasyprint() {
+  const char* path = std::getenv("PATH");
+  const std::string usual = usual_folders();
+  std::string found = in_folders(path ? path : usual);
+  if (!found.empty()) return found;
+  found = in_folders(usual);
+  if (!found.empty()) {
+    throw dem::EnvironmentError("the PDF needs WeasyPrint, which is " + found +
+                                ", but PATH does not name that folder: add it to PATH, or leave the PDF out with "
+                                "--format html");
   }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+  throw dem::EnvironmentError(
+      "the PDF needs WeasyPrint, and no folder of PATH holds it: run 'apt-get install weasyprint', or leave the PDF "
+      "out "
+      "with --format html");
+}
+
+std::string last_words(const std::string& said) {
+  constexpr std::size_t most = 400;
+  std::string words = said.substr(said.size() - std::min(said.size(), most));
+  words = words.substr(std::min(words.find_first_not_of(" \n\r\t"), words.size()));
+  words.erase(words.find_last_not_of(" \n\r\t") + 1);
+  return words.empty() ? "; it said nothing" : "; it said last: " + harmless(words);
+}
+
+// Without a font Pango crashes, and its last words do not say why.
+void check_fonts(const std::string& said) {
+  if (said.find("No fonts configured") == std::string::npos) return;
+  throw dem::EnvironmentError(
+      "weasyprint found no font: fontconfig knows none; install the package fonts-dejavu-core, or look at "
+      "FONTCONFIG_FILE and FONTCONFIG_PATH");
+}
+
+std::string signal_text(int signal) {
+  return std::string("signal ") + std::to_string(signal) + " (" + strsignal(signal) + ")" +
+         (signal == SIGKILL ? ", as a machine does that is out of memory" : "");
 }
 
 // WeasyPrint goes on after errors and ends with 0: its log tells.
@@ -83,7 +109,8 @@ std::string errors_in(const std::string& log) {
   std::istringstream lines(log);
   std::string errors;
   for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("ERROR") || line.starts_with("CRITICAL")) errors += (errors.empty() ? "" : "; ") + line;
+    if (line.starts_with("ERROR") || line.starts_with("CRITICAL"))
+      errors += (errors.empty() ? "" : "; ") + harmless(line);
   }
   return errors;
 }
@@ -99,23 +126,90 @@ std::string without_file_links(std::string html) {
   return html;
 }
 
-void print_pdf(const std::string& html, const std::filesystem::path& print_style, const std::filesystem::path& pdf) {
+std::string harmless(std::string text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    if (byte < 0x20 || byte == 0x7f) text[i] = ' ';
+    const bool high_control = byte == 0xc2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xa0;
+    if (high_control) text[i] = text[i + 1] = ' ';
+  }
+  return text;
+}
+
+std::string fault_of_pdf(std::string_view bytes) {
+  if (bytes.empty()) return "it is empty";
+  if (!bytes.starts_with("%PDF-")) return "it does not begin like a PDF";
+  const std::size_t last = bytes.find_last_not_of(" \n\r\t");
+  const std::string_view tail = bytes.substr(0, last + 1);
+  if (!tail.ends_with("%%EOF")) return "it ends too early";
+  const std::size_t table = tail.rfind("startxref");
+  if (table == std::string_view::npos || std::strtoull(&tail[table] + 9, nullptr, 10) >= table) {
+    return "its table of contents is missing";
+  }
+  if (bytes.find("/ObjStm") != std::string_view::npos) return {};  // pages are packed: they cannot be counted
+  for (const std::string_view mark : {"/Type /Page", "/Type/Page"}) {
+    for (std::size_t at = bytes.find(mark); at != std::string_view::npos; at = bytes.find(mark, at + 1)) {
+      const std::size_t after = at + mark.size();
+      if (after >= bytes.size() || std::isalpha(static_cast<unsigned char>(bytes[after])) == 0) return {};
+    }
+  }
+  return "it has no page";
+}
+
+void check_printing() {
+  (void)find_weasyprint();
+  const char* date = std::getenv("SOURCE_DATE_EPOCH");
+  if (!date) return;
+  const std::string_view digits = date;
+  constexpr std::size_t most_digits = 11;  // the year 5138: Python's calendar ends with the year 9999
+  if (digits.empty() || digits.size() > most_digits || digits.find_first_not_of("0123456789") != std::string::npos) {
+    throw dem::EnvironmentError(
+        "the environment variable SOURCE_DATE_EPOCH is '" + harmless(std::string(digits)) +
+        "', and the date in the PDF is taken from it: let it be a whole number of seconds since "
+        "1970, or unset it");
+  }
+}
+
+void print_pdf(const std::string& html, const std::filesystem::path& print_style, const std::filesystem::path& pdf,
+               const PrintLimits& limits) {
   if (!std::filesystem::exists(print_style)) {
     throw dem::EnvironmentError("the style sheet " + print_style.string() + " is missing");
   }
+  check_printing();
   dem::write_aside(pdf, [&](const std::filesystem::path& aside) {
     const Temporary source(aside.string() + ".html");
     const Temporary log(aside.string() + ".log");
     dem::write_file(source.path(), without_file_links(html));
     const auto whole = [](const std::filesystem::path& path) { return std::filesystem::absolute(path).string(); };
-    const int status = run_weasyprint(whole(aside).substr(0, whole(aside).find_last_of('/')), whole(source.path()),
-                                      whole(print_style), whole(aside), whole(log.path()));
-    const std::string messages = dem::read_file(log.path());
-    const std::string errors = errors_in(messages);
+    const ChildEnd end =
+        run_child({.path = find_weasyprint(),
+                   .words = {"--pdf-variant", "pdf/ua-1", "--encoding", "utf-8", "--base-url", fixed_base,
+                             "--stylesheet", whole(print_style), whole(source.path()), whole(aside)},
+                   .environment = environment(),
+                   .folder = whole(aside).substr(0, whole(aside).find_last_of('/')),
+                   .log = whole(log.path())},
+                  limits.seconds, limits.stopped);
+    const bool spoke = std::filesystem::exists(log.path());
+    const std::string said = spoke ? dem::read_file(log.path()) : "";
+    if (end.late) {
+      throw dem::EnvironmentError("weasyprint was still printing after " +
+                                  std::to_string(static_cast<long long>(limits.seconds)) +
+                                  " s and was ended: allow more with --pdf-timeout SECONDS, or leave the PDF out with "
+                                  "--format html" +
+                                  last_words(said));
+    }
+    check_fonts(said);
+    if (end.signal != 0) {
+      throw dem::EnvironmentError("weasyprint was ended by " + signal_text(end.signal) + last_words(said));
+    }
+    const std::string errors = errors_in(said);
     if (!errors.empty()) throw dem::EnvironmentError("weasyprint could not print the report: " + errors);
-    if (status != 0) {
-      throw dem::EnvironmentError("weasyprint ended with status " + std::to_string(status) + ": " +
-                                  messages.substr(messages.size() - std::min<std::size_t>(messages.size(), 400)));
+    if (end.code != 0) {
+      throw dem::EnvironmentError("weasyprint ended with status " + std::to_string(end.code) + last_words(said));
+    }
+    const std::string fault = fault_of_pdf(dem::read_file(aside));
+    if (!fault.empty()) {
+      throw dem::EnvironmentError("weasyprint ended well but left no whole PDF: " + fault + last_words(said));
     }
   });
 }

@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "engine/core/files.h"
+#include "engine/model/model.h"
 #include "reports/output/drawing.h"
 #include "reports/output/pdf.h"
 #include "reports/output/summary.h"
@@ -40,6 +41,7 @@ ReportOutcome make_report(StudyResult study, const ReportOptions& options, const
   outcome.published_all_met =
       std::ranges::none_of(comparisons.rows, [](const Comparison& row) { return row.verdict == Verdict::missed; });
   const auto written = [&](const char* name, const auto& write) {
+    if (options.stopped()) throw dem::Interrupted{};
     const std::filesystem::path path = options.folder / name;
     write(path);
     outcome.files.push_back(path);
@@ -52,7 +54,9 @@ ReportOutcome make_report(StudyResult study, const ReportOptions& options, const
     }
     if (options.pdf) {
       const std::string html = page(study, comparisons, drawn, options, Images::linked);
-      written("report.pdf", [&](const auto& path) { print_pdf(html, options.assets / "page" / "print.css", path); });
+      written("report.pdf", [&](const auto& path) {
+        print_pdf(html, options.assets / "page" / "print.css", path, {options.pdf_seconds, options.stopped});
+      });
     }
   }
   RunFacts facts = run;

@@ -21,7 +21,7 @@ struct ReportOutcome {
 
 /// Makes the report of a study. A failed case appears with its error in its figures' place.
 /// Throws dem::InputError when `only` names no figure of this scenario, dem::EnvironmentError when an asset is missing or
-/// broken, a file cannot be written, or WeasyPrint is missing or reports an error.
+/// broken, a file cannot be written, or WeasyPrint is missing or reports an error; dem::Interrupted when asked to stop.
 ReportOutcome make_report(StudyResult study, const ReportOptions& options, const CanvasSource& canvas,
                           const RunFacts& run);
 

@@ -5,21 +5,26 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include "engine/core/errors.h"
+#include "engine/model/model.h"
+#include "reports/output/child.h"
 
 namespace reports {
 namespace {
 
-enum class Ending { none, environment, other };
+enum class Ending { none, environment, ended, other };
 
 /// What parent and children share beside the results.
 struct Board {
@@ -55,8 +60,10 @@ void leave(Board& board, Ending ending, const char* message) {
 }
 
 /// A child's life: it never returns, and ends without the parent's destructors and exit handlers.
-[[noreturn]] void serve(Board& board, std::size_t count, const std::function<void(std::size_t)>& work) {
+[[noreturn]] void serve(Board& board, std::size_t count, const std::function<void(std::size_t)>& work, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would fetch the results
+  if (getppid() != parent) _exit(0);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_DFL);  // there is nothing to keep
   try {
     for (std::size_t piece = board.next++; piece < count && !board.failed; piece = board.next++) work(piece);
   } catch (const dem::EnvironmentError& error) {
@@ -69,40 +76,79 @@ void leave(Board& board, Ending ending, const char* message) {
   _exit(0);
 }
 
-int wait_for(pid_t child) {
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) return -1;
+/// The processes that are left; they end with this.
+class Children {
+ public:
+  Children() = default;
+  Children(const Children&) = delete;
+  Children& operator=(const Children&) = delete;
+  ~Children() {
+    for (const pid_t child : left_) ::kill(child, SIGKILL);
+    for (const pid_t child : left_) {
+      while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+      }
+    }
   }
-  return status;
+  void add(pid_t child) { left_.push_back(child); }
+  [[nodiscard]] std::size_t size() const { return left_.size(); }
+  /// Calls `ended` with the status of each that has ended since the last call.
+  void look(const std::function<void(int status)>& ended) {
+    std::erase_if(left_, [&](pid_t child) {
+      int status = 0;
+      const pid_t found = waitpid(child, &status, WNOHANG);
+      if (found == 0 || (found < 0 && errno == EINTR)) return false;
+      ended(found == child ? status : -1);
+      return true;
+    });
+  }
+
+ private:
+  std::vector<pid_t> left_;
+};
+
+std::string ending_of(int status) {
+  if (!WIFSIGNALED(status)) return "an error";
+  const int number = WTERMSIG(status);
+  return "signal " + std::to_string(number) + " (" + strsignal(number) + ")" +
+         (number == SIGKILL ? ", as a machine does that is out of memory" : "");
 }
 
 }  // namespace
 
 std::vector<std::byte> in_processes(std::size_t count, std::size_t size, int workers,
-                                    const std::function<void(std::size_t piece, std::byte* result)>& work) {
+                                    const std::function<void(std::size_t piece, std::byte* result)>& work,
+                                    const std::function<bool()>& stopped) {
   constexpr std::size_t results_from = (sizeof(Board) + 63) / 64 * 64;
   const SharedMemory memory(results_from + count * size);
   Board& board = *new (memory.at(0)) Board;
   const auto one = [&](std::size_t piece) { work(piece, memory.at(results_from + piece * size)); };
 
-  std::vector<pid_t> children;
+  Children children;
+  const pid_t parent = getpid();
   while (children.size() < std::min(static_cast<std::size_t>(std::max(1, workers)), count)) {
     const pid_t child = fork();
-    if (child == 0) serve(board, count, one);
+    if (child == 0) serve(board, count, one, parent);
     if (child < 0) break;  // fewer will do
-    children.push_back(child);
+    children.add(child);
   }
-  if (children.empty() && count > 0) {
+  if (children.size() == 0 && count > 0) {
     throw dem::EnvironmentError(std::string("no process can be made to draw in: ") + std::strerror(errno));
   }
-  for (const pid_t child : children) {
-    const int status = wait_for(child);
-    if (status == 0) continue;
-    const std::string how = WIFSIGNALED(status) ? std::string("signal ") + strsignal(WTERMSIG(status)) : "an error";
-    leave(board, Ending::environment, ("a process that drew pictures was ended by " + how).c_str());
+  int signal = 0;
+  const auto look_at = [&](int status) {
+    if (status == 0) return;
+    if (WIFSIGNALED(status) && signal == 0) signal = WTERMSIG(status);
+    leave(board, Ending::ended, ("a process that drew pictures was ended by " + ending_of(status)).c_str());
+  };
+  while (children.size() > 0) {
+    if (stopped()) throw dem::Interrupted{};
+    children.look(look_at);
+    throw_if_asked_to_end(signal);
+    if (children.size() > 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
+  if (stopped()) throw dem::Interrupted{};
   if (board.ending == Ending::environment) throw dem::EnvironmentError(board.message.data());
+  if (board.ending == Ending::ended) throw ProcessEnded(board.message.data());
   if (board.ending == Ending::other) throw std::runtime_error(board.message.data());
   const std::byte* results = memory.at(results_from);
   return {results, results + count * size};

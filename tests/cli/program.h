@@ -20,4 +20,13 @@ using WhileRunning = std::function<void(int process)>;
 Outcome run_program(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
                     const WhileRunning& meanwhile = {});
 
+/// Runs a script of sh in `folder`, with the program as "$PROGRAM".
+Outcome run_shell(const std::filesystem::path& folder, const std::string& script);
+
+/// The processes that `process` has started and that live.
+std::vector<int> children_of(int process);
+
+/// Waits until `holds` or so many seconds are over; what it said last.
+bool wait_until(const std::function<bool()>& holds, double seconds);
+
 }  // namespace test

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <map>
 #include <thread>
 
 #include "engine/core/files.h"
@@ -188,11 +189,48 @@ TEST_CASE("a run that is killed leaves nothing half-written, and the next one th
   const test::Outcome killed = run(folder.path(), {"--threads", "1"}, signalled(folder.path(), SIGKILL));
   REQUIRE(killed.code == 128 + SIGKILL);
   CHECK_FALSE(fs::exists(record(folder.path())));
-  dem::write_file(record(folder.path()).parent_path() / ".results.h5.abcdef.part", "half a record");
+  const fs::path left = record(folder.path()).parent_path() / ".results.h5.abcdef.part";
+  dem::write_file(left, "half a record of nobody that is known");
   const test::Outcome again = run(folder.path(), {"--threads", "1"});
   CHECK(again.code == due_code(folder.path()));
   CHECK(dem::read_file(record(folder.path())) == uncut_record());
-  CHECK(std::distance(fs::directory_iterator(record(folder.path()).parent_path()), {}) == 1);
+  CHECK(fs::exists(left));
+  CHECK(std::distance(fs::directory_iterator(record(folder.path()).parent_path()), {}) == 2);
+}
+
+TEST_CASE("stopped while the specimen is packed: nothing is promised that is not there") {
+  const test::Scratch folder;
+  const test::Outcome cut = run(folder.path(), {"--threads", "1"}, [&](int process) {
+    test::wait_until([&] { return fs::exists(record(folder.path()).parent_path()); }, 60);
+    ::kill(process, SIGTERM);
+  });
+  CAPTURE(cut.err);
+  REQUIRE(cut.code == 128 + SIGTERM);
+  REQUIRE_FALSE(fs::exists(record(folder.path()).parent_path() / "checkpoint"));
+  CHECK(has(cut.err, "had no state to keep yet and begins anew: give the same command to go on"));
+  CHECK_FALSE(has(cut.err, "state of those"));
+}
+
+TEST_CASE("a damaged specimen is made again, and a note says so") {
+  const test::Scratch folder;
+  const auto make = [&] {
+    return test::run_program(
+        folder.path(), {DEM_SOURCE_DIR "/scenarios/ldb_texture.toml", "--scale", "smoke", "--case", "genesis_ar_1",
+                        "--only", "genesis_contacts", "--format", "html", "--force"});
+  };
+  const test::Outcome first = make();
+  REQUIRE(first.code == 0);
+  CHECK_FALSE(has(first.err, "made again"));
+  std::map<fs::path, std::string> whole;
+  for (const auto& entry : fs::directory_iterator(folder / "out/specimens")) {
+    whole[entry.path()] = dem::read_file(entry.path());
+  }
+  REQUIRE(whole.size() == 2);
+  for (const auto& [path, bytes] : whole) dem::write_file(path, bytes.substr(0, bytes.size() / 2));
+  const test::Outcome again = make();
+  CHECK(again.code == 0);
+  CHECK(has(again.err, "genesis_ar_1: the specimen is made again: "));
+  for (const auto& [path, bytes] : whole) CHECK(dem::read_file(path) == bytes);
 }
 
 TEST_CASE("records that are missing: the report is made, the exit code is 1") {

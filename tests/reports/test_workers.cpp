@@ -2,12 +2,16 @@
 // before the first fork.
 #include <doctest/doctest.h>
 
+#include <unistd.h>
+
+#include <chrono>
 #include <csignal>
 #include <map>
 #include <stdexcept>
 
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
+#include "engine/model/model.h"
 #include "reports/output/report.h"
 #include "reports/output/workers.h"
 #include "tests/reports/synthetic.h"
@@ -63,7 +67,28 @@ TEST_CASE("what a process throws, or a signal that ends it, reaches the caller")
   CHECK_THROWS_WITH_AS(run([] { throw dem::EnvironmentError("no font"); }), "no font", dem::EnvironmentError);
   CHECK_THROWS_WITH_AS(run([] { throw std::invalid_argument("columns differ"); }), "columns differ",
                        std::runtime_error);
-  CHECK_THROWS_WITH_AS(run([] { std::raise(SIGKILL); }), doctest::Contains("ended by signal"), dem::EnvironmentError);
+  CHECK_THROWS_WITH_AS(run([] { std::raise(SIGKILL); }), doctest::Contains("ended by signal 9 (Killed)"),
+                       reports::ProcessEnded);
+  CHECK_THROWS_WITH_AS(run([] { std::raise(SIGSEGV); }), doctest::Contains("signal 11 (Segmentation fault)"),
+                       reports::ProcessEnded);
+  CHECK_THROWS_WITH_AS(run([] { _exit(1); }), doctest::Contains("ended by an error"), reports::ProcessEnded);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+    try {
+      run([signal] { std::raise(signal); });
+      FAIL_CHECK("nothing was thrown");
+    } catch (const dem::Interrupted& interrupted) {
+      CHECK(interrupted.signal == signal);
+    }
+  }
+}
+
+TEST_CASE("processes are ended at once when the caller is asked to stop") {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto since = [begin] { return std::chrono::steady_clock::now() - begin; };
+  const auto sleep = [](std::size_t) { return static_cast<int>(::sleep(60)); };
+  CHECK_THROWS_AS(reports::in_processes<int>(4, 2, sleep, [&] { return since() > std::chrono::milliseconds(100); }),
+                  dem::Interrupted);
+  CHECK(since() < std::chrono::seconds(2));
 }
 
 TEST_CASE("pictures drawn in two processes have the same bytes as in one") {
@@ -85,7 +110,7 @@ TEST_CASE("pictures drawn in two processes have the same bytes as in one") {
 TEST_CASE("once this process has drawn, all is drawn in it") {
   const test::Scratch scratch;
   const synthetic::Study study(scratch.path(), {.diameter = 3e-3, .height = 6e-3, .samples = 20});
-  report(study, scratch / "first", "grain_cluster", 1);
+  const render::Canvas first;
   REQUIRE(render::Canvas::any_made());
   CHECK_NOTHROW(report(study, scratch / "out", "grain_cluster", 2));
 }

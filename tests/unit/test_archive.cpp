@@ -1,10 +1,14 @@
 #include <doctest/doctest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <fstream>
+#include <set>
 
 #include "engine/core/archive.h"
 #include "engine/core/errors.h"
@@ -155,11 +159,47 @@ TEST_CASE("a disk that is full is heard, and the old file stays") {
   CHECK(dem::read_file(path) == "old");
 }
 
-TEST_CASE("leftovers of a killed process are removed, other files stay") {
+TEST_CASE("leftovers of a dead process are removed, those of a living one and of other machines stay") {
   const test::Scratch folder;
+  const auto names = [&] {
+    std::set<std::string> all;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+      all.insert(entry.path().filename().string());
+    return all;
+  };
   dem::write_file(folder / "results.h5", "x");
-  dem::write_file(folder / ".results.h5.abcdef.part", "half");
-  dem::remove_leftovers(folder.path());
-  CHECK(std::filesystem::exists(folder / "results.h5"));
-  CHECK_FALSE(std::filesystem::exists(folder / ".results.h5.abcdef.part"));
+  // A process that is killed while it writes, with a page and a log beside the file.
+  const pid_t child = ::fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    dem::write_aside(folder / "report.pdf", [](const std::filesystem::path& part) {
+      std::ofstream(part.string() + ".html") << "page";
+      std::ofstream(part.string() + ".log") << "words";
+      ::raise(SIGKILL);
+    });
+  }
+  int status = 0;
+  REQUIRE(::waitpid(child, &status, 0) == child);
+  REQUIRE(names().size() == 4);
+  dem::write_aside(folder / "data.txt", [&](const std::filesystem::path& own) {
+    std::ofstream(own.string() + ".html") << "page";
+    const std::string name = own.filename().string();  // ".data.txt.MACHINE-BOOT-PROCESS-BEGINNING-0.part"
+    const std::string owner = name.substr(10);
+    std::string later = owner;  // the number of a living process, given before to another
+    later.insert(later.rfind('-'), "1");
+    std::ofstream(folder / (".data.txt." + later)) << "half";
+    std::string elsewhere = owner, before = owner;
+    elsewhere.replace(0, 8, "00000000");
+    before.replace(9, 8, "00000000");
+    std::ofstream(folder / (".data.txt." + elsewhere)) << "half";
+    std::ofstream(folder / (".old.txt." + before)) << "half";
+    std::ofstream(folder / (".new.txt." + before)) << "half";
+    std::filesystem::last_write_time(folder / (".old.txt." + before),
+                                     std::filesystem::file_time_type::clock::now() - std::chrono::hours(25));
+    std::ofstream(folder / ".data.txt.part") << "of somebody else";
+    dem::remove_leftovers(folder.path());
+    const std::set<std::string> stay = {
+        "results.h5", name, name + ".html", ".data.txt." + elsewhere, ".new.txt." + before, ".data.txt.part"};
+    CHECK(names() == stay);
+  });
 }

@@ -94,20 +94,27 @@ void read_from(const TableFile& file, GrainSeeds& seeds) {
   seeds.mineral.assign(mineral.begin(), mineral.end());
 }
 
-/// False when the file is missing, damaged or of other content: it is then made again.
+/// False when the file is missing, damaged or of other content: it is then made again, and a note says why.
 template <class Part>
-bool load(const std::filesystem::path& path, const std::string& content, Part& part) {
-  if (!std::filesystem::exists(path)) return false;
+bool load(const std::filesystem::path& path, const std::string& content, Part& part, const RunContext& context) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return false;
+  std::string why;
   try {
     const TableFile file = read_tables(path);
-    if (file.attribute("content") != content) return false;
-    read_from(file, part);
-    return true;
-  } catch (const EnvironmentError&) {
-    return false;
-  } catch (const std::out_of_range&) {
-    return false;
+    if (file.attribute("content") == content) {
+      read_from(file, part);
+      return true;
+    }
+    why = path.string() + " belongs to another specimen";
+  } catch (const EnvironmentError& failure) {
+    why = failure.what();
+  } catch (const std::out_of_range& missing) {
+    why = path.string() + " is not whole: " + missing.what();
   }
+  context.note("the specimen is made again: " + why);
+  part = {};
+  return false;
 }
 
 template <class Make>
@@ -117,7 +124,7 @@ auto kept(const RunContext& context, const std::string& content, Make make) {
   const std::filesystem::path path = context.specimens / (sha256(content).substr(0, 16) + ".h5");
   const auto turn = context.turns ? context.turns->take(path) : std::unique_lock<std::mutex>();
   Part part;
-  if (load(path, content, part)) return part;
+  if (load(path, content, part, context)) return part;
   part = make();
   write_tables(path, {{"content", content}}, tables_of(part));
   return part;
