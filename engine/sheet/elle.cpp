@@ -156,7 +156,8 @@ class Reader {
     const double off = 1e-9 * (std::fabs(w) + std::fabs(h));
     const bool level = std::fabs(n[3] - n[1]) <= off && std::fabs(n[7] - n[5]) <= off &&
                        std::fabs((n[4] - n[6]) - w) <= off + 1e-6 * std::fabs(w);
-    if (!(w > 0) || !(h > 0) || !level) {
+    const auto sized = [](double length) { return length > 1e-30 && length < 1e30; };
+    if (!sized(w) || !sized(h) || !level) {
       fail("CellBoundingBox is no cell between a level bottom and a level top of the same width",
            "corners go lower left, lower right, upper right, upper left; only the top may be moved sideways");
     }
@@ -298,6 +299,13 @@ class Reader {
     for (const auto& unode : map_.unodes) unodes.insert(unode.id);
     for (ElleAttribute& a : map_.attributes) {
       const std::set<int>& known = a.of_unodes ? unodes : flynn_ids_;
+      for (std::size_t u = 0; a.name == "UNODES" && u < map_.unodes.size(); ++u) {
+        for (std::size_t q = 0; q < 2; ++q) {
+          if (std::fabs(map_.unodes[u].place[q] - map_.low[q]) < 100 * (map_.high[q] - map_.low[q])) continue;
+          fault(a, lines_[a.name][u], fmt::format("unode {} lies far outside the cell", map_.unodes[u].id),
+                "unodes lie in the cell of CellBoundingBox, or one cell beside it");
+        }
+      }
       std::size_t kept = 0;
       for (std::size_t i = 0; i < a.values.size(); ++i) {
         if (a.name == "UNODES" || known.contains(a.values[i].first)) {
@@ -374,9 +382,9 @@ ElleColumn ElleMap::find(std::string_view name) const {
       });
     }
   }
-  if (found && found.section->faults > 0) {
-    const ElleAttribute& a = *found.section;
-    throw InputError({source, a.fault_line, 0}, a.name, a.fault, a.remedy);
+  for (const ElleAttribute& a : attributes) {
+    const bool asked = &a == found.section || (found && found.section->of_unodes && a.name == "UNODES");
+    if (asked && a.faults > 0) throw InputError({source, a.fault_line, 0}, a.name, a.fault, a.remedy);
   }
   return found;
 }

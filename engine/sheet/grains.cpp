@@ -415,9 +415,9 @@ std::vector<std::int32_t> nearest_unodes(const ElleMap& map, const Sheet& sheet)
   const double width = map.high[0] - map.low[0], height = map.high[1] - map.low[1];
   const double top = width * (sheet.y.back() + sheet.radius0);
   // Unodes and their images in and round the sheet's box, in buckets of about one unode each.
-  const double margin = 0.5 * std::max(width, height);
-  const Point low{map.low[0] - margin, map.low[1] - margin}, high{map.high[0] + margin, map.low[1] + top + margin};
   const double side = std::sqrt(width * height / static_cast<double>(map.unodes.size()));
+  const double margin = std::min(0.5 * std::max(width, height), 4 * side + 0.5 * std::min(width, height));
+  const Point low{map.low[0] - margin, map.low[1] - margin}, high{map.high[0] + margin, map.low[1] + top + margin};
   const int nx = 1 + static_cast<int>((high[0] - low[0]) / side), ny = 1 + static_cast<int>((high[1] - low[1]) / side);
   const auto bucket = [&](double at, double from, int n) {
     return std::clamp(static_cast<int>((at - from) / side), 0, n - 1);

@@ -111,6 +111,8 @@ TEST_CASE("broken files are refused with line and reason") {
   refuses(replaced("1.0 0.0\n", "1.0 0.3\n"), 7, "level bottom");
   refuses(replaced("1.0 1.0\n", "1.2 1.0\n"), 7, "same width");
   refuses(replaced("1.0 1.0\n", "1.0 -1.0\n"), 7, "level");
+  refuses(replaced("1.0 0.0\n                1.0 1.0\n                0.0 1.0", "1e-320 0 1e-320 1 0 1"), 5,
+          "same width");
   refuses(replaced("SwitchDistance 0.015", "SimpleShearOffset x"), 3, "no number");
   refuses(replaced("1 0.4 0.0", "1 1e300 0.0"), 9, "far outside");
   refuses(replaced("# a comment", "5 6 7"), 1, "outside every section");
@@ -254,6 +256,7 @@ TEST_CASE("values that nobody asks for refuse no file; a note counts them, and a
                                {"EXPAND", "MINERAL", "MINERAL", 14, "given twice"},
                                {"UNODES\n0 0.1", "UNODES CONC_B\n0 nan", "CONC_B", 27, "no place"},
                                {"UNODES\n0 0.1", "UNODES CONC_B\n1 0.1", "CONC_B", 28, "two values"},
+                               {"UNODES\n0 0.1", "UNODES CONC_B\n0 1e300", "CONC_B", 27, "far outside"},
                                {"CONC_A\nDefault 0", "U_X\n5 1", "U_X", 25, "no unode 5"}}) {
     CAPTURE(broken.to);
     const ElleMap map = parse_elle(replaced(broken.from, broken.to), "map.elle");
