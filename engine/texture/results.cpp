@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "engine/texture/genesis/packing.h"
 #include "engine/texture/loading/characteristics.h"
 #include "engine/texture/quantities.h"
 
@@ -383,10 +384,14 @@ void add_test(Record& record, const Specimen& specimen, const Settings& settings
   for (std::size_t k = 0; k < 4; ++k) record.put(quantity::cracks[k], h[end].cracks[k]);
   for (std::size_t k = 0; k < 4; ++k) record.put(quantity::cracks_at_peak[k], h[c.peak].cracks[k]);
 
+  // A specimen that never bore a load has no work to divide by either: then that of the noise.
+  const Cylinder& vessel = settings.packing.vessel;
+  const double least_work =
+      loaded ? 0 : 0.5 * least_peak * least_peak / settings.minerals.front().modulus * volume(vessel);
   double peak_work = 0, residual = 0, squares = 0, largest = 0;
   for (const HistoryRow& r : h) {
     peak_work = std::max(peak_work, r.ledger.work);
-    const double scale = std::max(r.ledger.work, 1e-2 * peak_work);
+    const double scale = std::max({r.ledger.work, 1e-2 * peak_work, least_work});
     if (scale > 0) residual = std::max(residual, std::abs(r.ledger.residual()) / scale);
   }
   // The root mean square measures how fast the specimen is loaded: it falls with the rate. The largest value does not: it

@@ -62,6 +62,7 @@ render::Chart against_size(const StudyResult& study, const Test& test) {
     render::Series other;
     for (const dem::Record* r : records_of(study, test.name)) {
       if (r->text("planes") != planes || r->text("direction") != main->text("direction")) continue;
+      if (!std::isfinite(r->value_or_nan(test.result))) continue;
       other.x.push_back(r->value(quantity::particles));
       other.y.push_back(r->value_or_nan(test.result));
     }
@@ -125,6 +126,11 @@ double first_drop(const dem::Table& history) {
 // Loaded along its rows a block loses the rows, or all bonds between them, and what is left goes on carrying.
 std::string unfailed(const dem::Record& r, const Test& test, double drop) {
   const auto& h = r.table("history");
+  if (!std::isfinite(drop)) {
+    return fmt::format("In {} along {} the block of {} elements does not fall up to a strain of {} %. ", test.name,
+                       r.text("direction"), count(r.value(quantity::particles)),
+                       number(100 * h.real("axial_strain").back(), 2));
+  }
   return fmt::format(
       "In {} along {} the block of {} elements falls first at {} MPa and then does not fail: at a strain of {} % it "
       "carries {} "
@@ -143,7 +149,15 @@ FigureContent block_strengths(const StudyResult& study) {
       "compression, because cracks begin at the boundary, where elements have fewer bonds.";
   for (const Test& test : {tension, compression}) {
     add_missing(content, study, {test.name});
-    const auto records = by_size(study, test.name);
+    const auto all = by_size(study, test.name);
+    std::vector<const dem::Record*> records;  // those that failed
+    for (const dem::Record* r : all) {
+      if (r->has(test.result)) {
+        records.push_back(r);
+      } else {
+        content.finding += unfailed(*r, test, first_drop(r->table("history")));
+      }
+    }
     if (records.empty()) continue;
     int n = 0;
     const double mean = mean_of_blocks(study, test, n);
