@@ -226,7 +226,7 @@ auto list_value(const Place& place, const toml::node& node, One one) {
   for (std::size_t i = 0; i < array->size(); ++i) {
     const toml::node& item = *array->get(i);
     Place at{place.key, place.where, place.shown + "[" + std::to_string(i) + "]"};
-    if (item.source().begin) at.where = location(place.where.file, item.source());
+    if (item.source().begin && place.where.line > 0) at.where = location(place.where.file, item.source());
     values.push_back(one(at, item));
   }
   return values;

@@ -509,7 +509,11 @@ ReadScenario read_scenario(const std::string& file, std::string_view scale, std:
       throw InputError(include.where, "include", "there is no file " + excerpt(include.file),
                        "give the path of a file with keys to start from, seen from this file's folder");
     }
-    const toml::table start = parse(read_input(include.file, largest_scenario, include.where, "include"), include.file);
+    const std::string text = read_input(include.file, largest_scenario, include.where, "include");
+    if (text.empty()) {
+      throw InputError(include.where, "include", excerpt(include.file) + " is empty", "give a file with keys");
+    }
+    const toml::table start = parse(text, include.file);
     for (const char* name : {"include", "scales"}) {
       if (const toml::node* node = start.get(name)) {
         throw InputError(location(include.file, node->source()), name, "does not belong into an included file",
