@@ -54,7 +54,6 @@ void say(const char* text) {
 /// `alive` any more.
 [[noreturn]] void guard(const Prepared& program, int alive) {
   ::setpgid(0, 0);
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_DFL);
   const int null = ::open("/dev/null", O_RDONLY);
   const int log = ::open(program.log, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   if (null < 0 || log < 0 || ::dup2(null, STDIN_FILENO) < 0 || ::dup2(log, STDOUT_FILENO) < 0 ||
@@ -131,6 +130,21 @@ class Group {
 
 }  // namespace
 
+int fork_for_work() {
+  sigset_t asking, before;
+  sigemptyset(&asking);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&asking, number);
+  pthread_sigmask(SIG_BLOCK, &asking, &before);
+  const pid_t child = ::fork();
+  const int failed = errno;
+  if (child == 0) {
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_DFL);
+  }
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  errno = failed;
+  return child;
+}
+
 void throw_if_asked_to_end(int signal) {
   if (signal == SIGTERM || signal == SIGINT || signal == SIGHUP) throw dem::Interrupted{.signal = signal};
 }
@@ -142,7 +156,7 @@ ChildEnd run_child(const ChildProgram& program, double seconds, const std::funct
   const Prepared prepared{program.path.c_str(), word_pointers.data(), variable_pointers.data(), program.folder.c_str(),
                           program.log.c_str()};
   const Pipe alive;
-  const pid_t leader = ::fork();
+  const pid_t leader = fork_for_work();
   if (leader < 0) throw dem::EnvironmentError(std::string("no process can be made: ") + std::strerror(errno));
   if (leader == 0) {
     ::close(alive.write_end());

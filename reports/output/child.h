@@ -26,6 +26,10 @@ struct ChildEnd {
 /// then; this holds also when this process is killed.
 ChildEnd run_child(const ChildProgram& program, double seconds, const std::function<bool()>& stopped);
 
+/// fork(), in a way that no signal by which people end programs is lost on the child: until it has dropped this program's
+/// answers to them, such a signal waits.
+int fork_for_work();
+
 /// dem::Interrupted for the signals by which people end programs; for others, and 0, nothing.
 void throw_if_asked_to_end(int signal);
 

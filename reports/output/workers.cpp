@@ -63,7 +63,6 @@ void leave(Board& board, Ending ending, const char* message) {
 [[noreturn]] void serve(Board& board, std::size_t count, const std::function<void(std::size_t)>& work, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would fetch the results
   if (getppid() != parent) _exit(0);
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_DFL);  // there is nothing to keep
   try {
     for (std::size_t piece = board.next++; piece < count && !board.failed; piece = board.next++) work(piece);
   } catch (const dem::EnvironmentError& error) {
@@ -126,7 +125,7 @@ std::vector<std::byte> in_processes(std::size_t count, std::size_t size, int wor
   Children children;
   const pid_t parent = getpid();
   while (children.size() < std::min(static_cast<std::size_t>(std::max(1, workers)), count)) {
-    const pid_t child = fork();
+    const pid_t child = fork_for_work();
     if (child == 0) serve(board, count, one, parent);
     if (child < 0) break;  // fewer will do
     children.add(child);
