@@ -65,18 +65,12 @@ std::vector<CaseSpec> cases(const Scenario& s) {
   refuse_repeated(s, "sweep.elements_y", s.integers("sweep.elements_y"));
   std::vector<CaseSpec> all;
   const auto add = [&](const Wanted& w, const std::string& extra) {
-<<<<<<< ours
     CaseSpec spec = spec_of(s, w);
-    if (std::ranges::find(all, spec.id, &CaseSpec::id) != all.end())
-      throw s.error(extra, "the case " + spec.id + " is there already", "give each case once");
-=======
-    CaseSpec spec = spec_of(s, w, !extra.empty());
     const auto there = std::ranges::find(all, spec.id, &CaseSpec::id);
     if (there != all.end()) {
       if (there->content == spec.content) return;  // the very same case, which the sweep has too
       throw s.error(extra, "another case is called " + spec.id, "give values that tell the two apart");
     }
->>>>>>> theirs
     all.push_back(std::move(spec));
   };
   for (const std::string& test : s.texts("tests")) {
