@@ -398,7 +398,7 @@ Settings read_settings(const Scenario& s, std::string_view test) {
   r.packing.pressure = s.real("packing.pressure_ratio") * r.packing.modulus;
   r.packing.porosity = s.real("packing.porosity");
   r.packing.seed = s.seed();
-  // Packings of granite's particles at 11.4 minimum radii do not come to rest for two seeds of four, at 12.9 for all.
+  // Packings of granite's particles at 11.4 minimum radii do not come to rest for three seeds of four, at 12.9 they do.
   constexpr double narrowest = 13;
   if (r.packing.vessel.diameter < narrowest * r.packing.radius_min * (1 - 1e-9)) {
     throw s.error("specimen.diameter",

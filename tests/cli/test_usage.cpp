@@ -145,7 +145,7 @@ TEST_CASE("wrong usage and wrong input exit with 2, say what would be right, and
       {{elle, "--scale", "smoke", "--set", "grains.source=\"file\"", "--set", "grains.file=\"/dev/zero\""},
        "grains.file: the file is no plain file"},
       // What comes from a sweep has the line of the sweep.
-      {{"sweep.toml"}, "sweep.toml:3:1: sweep.mineral: there is no mineral 'gold'"},
+      {{"sweep.toml"}, "sweep.toml:3:7: sweep.mineral: there is no mineral 'gold'"},
       {{scenario, "--set", "seed=9007199254740990", "--set", "repeats=10"}, "--set: repeats: the last of 10 seeds"},
       {{scenario, "--set", "seed=9007199254740993"}, "--set: seed: 9007199254740993 is out of range"},
       {{scenario, "--set", "specimen.diameter=\"4 mm\""}, "4 mm is too narrow for its particles"},

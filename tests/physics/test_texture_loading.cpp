@@ -184,7 +184,7 @@ TEST_CASE("specimens that are too coarse are refused, with the reason") {
     }
     return false;
   };
-  CHECK(refused({"packing.minimum_radius=\"1 mm\""}, "across the specimen"));
+  CHECK(refused({"packing.minimum_radius=\"0.69 mm\""}, "across the specimen"));
   CHECK(refused({"packing.minimum_radius=\"0.6 mm\"", "texture.seed_scale=0.5"}, "a particle or two"));
   CHECK_NOTHROW(read_settings(my_rock({"packing.minimum_radius=\"0.5 mm\""}), "compression"));
 }
