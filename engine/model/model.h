@@ -61,6 +61,11 @@ struct Model {
   std::vector<CaseSpec> (*cases)(const Scenario&);
   /// Simulates a case. Throws CaseError when it fails, Interrupted when stopped.
   Record (*run)(const CaseSpec&, RunContext&);
+  /// Files in the folder of specimens that a case reads or else makes; cases with the same file share it. None: nothing is
+  /// shared.
+  std::vector<std::string> (*specimens)(const CaseSpec&) = nullptr;
+  /// Makes those that are missing, and nothing else. Throws as run().
+  void (*make_specimens)(const CaseSpec&, RunContext&) = nullptr;
 };
 
 /// The explicit table of models (engine/models.cpp).

@@ -1,6 +1,7 @@
 #include "engine/study/study.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <atomic>
@@ -14,6 +15,7 @@
 #include "engine/core/archive.h"
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
+#include "engine/core/hash.h"
 #include "engine/scenario/suggest.h"
 #include "engine/store/store.h"
 
@@ -54,6 +56,31 @@ bool is_current(const CaseSpec& spec, const fs::path& path) {
   }
 }
 
+// failed.txt: a line that says which content failed, then the words.
+fs::path failure_path(const fs::path& folder) { return folder / "failed.txt"; }
+
+std::string failure_head(const CaseSpec& spec) { return "content " + sha256(spec.content) + "\n"; }
+
+std::optional<std::string> read_failure(const fs::path& folder, const CaseSpec& spec) {
+  std::error_code error;
+  if (!fs::exists(failure_path(folder), error)) return {};
+  try {
+    const std::string text = read_file(failure_path(folder));
+    const std::string head = failure_head(spec);
+    if (text.starts_with(head)) return text.substr(head.size());
+  } catch (const EnvironmentError&) {
+  }
+  return {};
+}
+
+/// What the next plan wants to know of this run. The memory is the largest of the whole process: what ran beside counts too.
+void write_run_facts(const fs::path& folder, double seconds, int threads) {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  write_file(folder / "run.json", fmt::format("{{\"seconds\": {:.3f}, \"threads\": {}, \"memory_bytes\": {}}}\n",
+                                              seconds, threads, static_cast<std::int64_t>(usage.ru_maxrss) * 1024));
+}
+
 /// Runs the cases in up to so many threads as are given. Each worker takes the next case in order; what it does with
 /// the case does not depend on the others.
 class Runner {
@@ -62,7 +89,6 @@ class Runner {
       : study_(study),
         options_(options),
         listener_(listener),
-        folder_(inside(options.output, study.folder())),
         outcomes_(study.cases.size()),
         waiting_(study.cases.size(), false),
         free_threads_(std::max(options.threads, 1)) {}
@@ -88,7 +114,7 @@ class Runner {
 
  private:
   [[nodiscard]] fs::path path_of(const CaseSpec& spec) const {
-    return inside(folder_ / "cases", spec.id) / "results.h5";
+    return case_folder(options_.output, study_, spec.id) / "results.h5";
   }
   [[nodiscard]] bool asked(const CaseSpec& spec) const {
     return options_.only_case.empty() || options_.only_case == spec.id;
@@ -133,8 +159,12 @@ class Runner {
       simulate(at, path, outcome.record ? "asked for by --force" : found.why, outcome);
     } else if (!outcome.record) {
       outcome.state = asked(spec) ? CaseState::missing : CaseState::left_out;
-      if (asked(spec))
+      if (const auto failure = read_failure(path.parent_path(), spec); asked(spec) && failure) {
+        outcome.state = CaseState::failed;
+        outcome.error = *failure;
+      } else if (asked(spec)) {
         outcome.error = "There is no record to draw from (" + found.why + "); run it without --report-only.";
+      }
     }
     const std::lock_guard lock(mutex_);
     waiting_[at] = false;
@@ -186,7 +216,9 @@ class Runner {
     const CaseSpec& spec = study_.cases[at];
     const fs::path checkpoint = path.parent_path() / "checkpoint";
     make_folder(path.parent_path());
-    prepare_checkpoint(checkpoint, spec, why);
+    const bool goes_on = prepare_checkpoint(checkpoint, spec, why);
+    std::error_code ignored;
+    fs::remove(failure_path(path.parent_path()), ignored);
 
     const Place place(*this, at);
     RunContext context;
@@ -215,21 +247,21 @@ class Runner {
       outcome.record = study_.model->run(spec, context);
       outcome.state = CaseState::simulated;
       write_record(*outcome.record, path);
-      std::error_code ignored;
       fs::remove(checkpoint, ignored);
     } catch (const CaseError& failure) {
       outcome.state = CaseState::failed;
       outcome.error = failure.what();
+      write_file(failure_path(path.parent_path()), failure_head(spec) + outcome.error);
     } catch (const Interrupted&) {
-      std::error_code ignored;
       ++(fs::exists(checkpoint, ignored) ? kept_ : from_anew_);
       throw;
     }
     outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (outcome.record && !goes_on) write_run_facts(path.parent_path(), outcome.seconds, context.threads);
   }
 
-  /// Leaves a checkpoint only when the case can go on from it, and says so in `why`.
-  void prepare_checkpoint(const fs::path& path, const CaseSpec& spec, std::string& why) {
+  /// Leaves a checkpoint only when the case can go on from it, and says so in `why`; true then.
+  bool prepare_checkpoint(const fs::path& path, const CaseSpec& spec, std::string& why) {
     std::string bytes;
     CheckpointLoad load;
     if (!options_.force) load = read_checkpoint(path, spec.content, bytes);
@@ -243,12 +275,12 @@ class Runner {
       std::error_code ignored;
       fs::remove(path, ignored);
     }
+    return load.loaded;
   }
 
   const Study& study_;
   const StudyOptions& options_;
   const StudyListener& listener_;
-  fs::path folder_;
   Turns turns_;  // of specimens
   std::atomic<std::size_t> next_ = 0;
   std::atomic<bool> given_up_ = false, interrupted_ = false;
@@ -340,6 +372,38 @@ void check_case(const Study& study, const std::string& id) {
   if (id.empty() || std::ranges::find(ids, id) != ids.end()) return;
   throw InputError(Location{study.scenario.file(), 0, 0}, "--case", "there is no case '" + id + "'",
                    advice(id, ids, "the cases are"));
+}
+
+Study with_one_case(const Study& study, const std::string& id) {
+  check_case(study, id);
+  Study one = study;
+  std::erase_if(one.cases, [&](const CaseSpec& spec) { return spec.id != id; });
+  return one;
+}
+
+fs::path case_folder(const fs::path& output, const Study& study, const std::string& id) {
+  return inside(inside(output, study.folder()) / "cases", id);
+}
+
+bool is_kept(const fs::path& output, const Study& study, const CaseSpec& spec) {
+  return is_current(spec, case_folder(output, study, spec.id) / "results.h5");
+}
+
+std::optional<std::string> failure_of(const fs::path& output, const Study& study, const CaseSpec& spec) {
+  return read_failure(case_folder(output, study, spec.id), spec);
+}
+
+void make_specimens(const Study& study, const StudyOptions& options, const StudyListener& listener) {
+  if (study.cases.empty() || !study.model->make_specimens) return;
+  const CaseSpec& spec = study.cases.front();
+  RunContext context;
+  context.threads = options.threads;
+  context.specimens = options.output / "specimens";
+  remove_leftovers(context.specimens);
+  context.stopped = [&] { return options.stop && options.stop->load(); };
+  context.report = [&](const Progress& progress) { listener.progress(spec.id, progress); };
+  context.note = [&](const std::string& note) { listener.note(spec.id + ": " + note); };
+  study.model->make_specimens(spec, context);
 }
 
 std::vector<CaseOutcome> run_study(const Study& study, const StudyOptions& options, const StudyListener& listener) {

@@ -1,6 +1,7 @@
 #pragma once
 // The cases of a scenario, run into out/NAME.SCALE/cases/CASE/results.h5. A finished case is kept as long as its
-// content key is the same; a cut one goes on from its checkpoint; a failed one does not stop the others.
+// content key is the same; a cut one goes on from its checkpoint; a failed one does not stop the others, and leaves its
+// words (failed.txt) until it is run again. How long a case took stands in run.json beside its record.
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
@@ -80,6 +81,22 @@ struct StudyListener {
 /// cases at hand have left their checkpoints), InputError as check_case(), EnvironmentError when a file cannot be
 /// written (the other cases at hand are stopped).
 std::vector<CaseOutcome> run_study(const Study& study, const StudyOptions& options, const StudyListener& listener);
+
+/// The study of one of its cases alone; throws as check_case().
+Study with_one_case(const Study& study, const std::string& id);
+
+/// Where a case keeps its record, its checkpoint and what is known of its run.
+std::filesystem::path case_folder(const std::filesystem::path& output, const Study& study, const std::string& id);
+
+/// Whether a current record is there.
+bool is_kept(const std::filesystem::path& output, const Study& study, const CaseSpec& spec);
+
+/// What a case that failed (CaseError) last left beside its record; nothing when it was of another content.
+std::optional<std::string> failure_of(const std::filesystem::path& output, const Study& study, const CaseSpec& spec);
+
+/// Makes the specimens of the first case that are missing (Model::specimens), and simulates nothing. Throws as run_study(),
+/// and CaseError.
+void make_specimens(const Study& study, const StudyOptions& options, const StudyListener& listener);
 
 /// Why a record of content `before` does not serve `now`: the lines that differ, quantities in their declared unit:
 /// "mineral[2].cohesion: 292 MPa -> 300 MPa, seed: 1 -> 2". "" when they are the same.

@@ -198,8 +198,18 @@ Record run(const CaseSpec& spec, RunContext& context) {
   return record;
 }
 
+std::vector<std::string> specimens(const CaseSpec& spec) {
+  return specimen_files(read_settings(spec.scenario, spec.test()));
+}
+
+void make_specimens(const CaseSpec& spec, RunContext& context) {
+  keep_specimen(read_settings(spec.scenario, spec.test()), context);
+}
+
 }  // namespace
 
-Model model() { return {"grain_texture", physics_version, &keys, &quantities, &parameters, &cases, &run}; }
+Model model() {
+  return {"grain_texture", physics_version, &keys, &quantities, &parameters, &cases, &run, &specimens, &make_specimens};
+}
 
 }  // namespace dem::texture

@@ -5,19 +5,27 @@
 #include <iostream>
 
 #include "engine/core/text.h"
+#include "reports/cluster/estimate.h"
 #include "reports/commands/machine.h"
 #include "reports/output/report.h"
 
 namespace cli {
 namespace {
 
-reports::RunFacts run_facts(int threads, const std::vector<dem::CaseOutcome>& outcomes) {
+/// With the seconds of each case, also of those that an earlier run has made, here or on another machine.
+reports::RunFacts run_facts(int threads, const dem::Study& study, const std::vector<dem::CaseOutcome>& outcomes,
+                            const std::filesystem::path& output) {
   reports::RunFacts facts = {{"host", host_name()},
                              {"threads", static_cast<double>(threads)},
                              {"compiler", std::string("g++ ") + __VERSION__},
                              {"engine_version", std::string(DEM_VERSION)}};
   for (const dem::CaseOutcome& outcome : outcomes) {
-    if (outcome.seconds > 0) facts.emplace_back("case_seconds." + outcome.id, outcome.seconds);
+    double seconds = outcome.seconds;
+    if (seconds <= 0 && outcome.record) {
+      const auto earlier = cluster::earlier_run(dem::case_folder(output, study, outcome.id));
+      if (earlier) seconds = earlier->seconds;
+    }
+    if (seconds > 0) facts.emplace_back("case_seconds." + outcome.id, seconds);
   }
   return facts;
 }
@@ -70,7 +78,7 @@ bool Reporter::report(const dem::Study& study, const std::vector<dem::CaseOutcom
     return *canvas_;
   };
   const reports::ReportOutcome made =
-      reports::make_report(result, report, own_canvas, run_facts(options_.threads, outcomes));
+      reports::make_report(result, report, own_canvas, run_facts(options_.threads, study, outcomes, options_.output));
   if (!options_.quiet) {
     for (const std::filesystem::path& file : made.files) std::cout << file.string() << "\n" << std::flush;
   }

@@ -21,17 +21,6 @@
 namespace cli {
 namespace {
 
-/// Everything that can be wrong with the input is found here, before anything is written.
-std::vector<dem::Study> checked_studies(const RunRequest& request) {
-  std::vector<dem::Study> studies = read_studies(request.scenarios, request.scale, request.overrides);
-  for (const dem::Study& study : studies) {
-    dem::check_case(study, request.only_case);
-    reports::chosen_figures({&study.scenario, {}}, request.figure);
-    reports::check_topics(study.scenario, assets_folder() / "papers");
-  }
-  return studies;
-}
-
 dem::StudyOptions study_options(const RunRequest& request) {
   dem::StudyOptions options;
   options.output = request.output;
@@ -76,8 +65,35 @@ std::string stopped_text(const dem::Interrupted& interrupted, const std::string&
   return text + ": give the same command to go on\n";
 }
 
-int perform(const Arguments& arguments) {
-  const RunRequest request = run_request(arguments);
+int perform(const Arguments& arguments) { return run(run_request(arguments)); }
+
+std::vector<Option> options() {
+  std::vector<Option> all = {output_option(), scale_option(), threads_option(),
+                             seed_option(),   case_option(),  set_option()};
+  const auto add = [&](std::vector<Option> more) { all.insert(all.end(), more.begin(), more.end()); };
+  add({{.name = "report-only", .help = "draw from the records that are there, simulate nothing"},
+       {.name = "force", .help = "simulate also the cases whose record is current"}});
+  add(report_options());
+  add({quiet_option(),
+       {.name = "explain-keys", .help = "the same as dem-report keys", .verb = "keys"},
+       {.name = "list-figures", .help = "the same as dem-report figures", .verb = "figures"},
+       {.name = "version", .help = "print the version", .verb = "version"}});
+  return all;
+}
+
+}  // namespace
+
+std::vector<dem::Study> checked_studies(const RunRequest& request) {
+  std::vector<dem::Study> studies = read_studies(request.scenarios, request.scale, request.overrides);
+  for (const dem::Study& study : studies) {
+    dem::check_case(study, request.only_case);
+    reports::chosen_figures({&study.scenario, {}}, request.figure);
+    reports::check_topics(study.scenario, assets_folder() / "papers");
+  }
+  return studies;
+}
+
+int run(const RunRequest& request) {
   const std::vector<dem::Study> studies = checked_studies(request);
   for (const dem::Study& study : studies) {
     for (const std::string& note : study.notes) std::cerr << "dem-report: note: " << note << "\n";
@@ -104,17 +120,9 @@ int perform(const Arguments& arguments) {
   return well ? 0 : 1;
 }
 
-std::vector<Option> options() {
+std::vector<Option> report_options() {
   return {
-      output_option(),
-      scale_option(),
-      threads_option(),
-      seed_option(),
       {.name = "only", .value = "FIGURE", .help = "draw only this figure", .kind = OptionKind::text},
-      {.name = "case", .value = "ID", .help = "run only this case", .kind = OptionKind::text},
-      set_option(),
-      {.name = "report-only", .help = "draw from the records that are there, simulate nothing"},
-      {.name = "force", .help = "simulate also the cases whose record is current"},
       {.name = "format",
        .value = "LIST",
        .help = "what to make",
@@ -129,14 +137,19 @@ std::vector<Option> options() {
        .low = 1,
        .high = 86400},
       {.name = "strict", .help = "exit with 1 also when a published number is missed"},
-      quiet_option(),
-      {.name = "explain-keys", .help = "the same as dem-report keys", .verb = "keys"},
-      {.name = "list-figures", .help = "the same as dem-report figures", .verb = "figures"},
-      {.name = "version", .help = "print the version", .verb = "version"},
   };
 }
 
-std::vector<ExitCode> exit_codes() {
+void take_report_options(const Arguments& arguments, RunRequest& request) {
+  request.figure = arguments.text("only");
+  const auto& formats = arguments.texts("format");
+  request.html = std::ranges::find(formats, "html") != formats.end();
+  request.pdf = std::ranges::find(formats, "pdf") != formats.end();
+  request.pdf_seconds = static_cast<double>(arguments.number("pdf-timeout"));
+  request.strict = arguments.has("strict");
+}
+
+std::vector<ExitCode> run_exit_codes() {
   std::vector<ExitCode> codes = usual_exit_codes();
   codes.insert(codes.begin() + 1, {"1",
                                    "a case or one of its checks failed (with --strict also: a published number "
@@ -145,17 +158,6 @@ std::vector<ExitCode> exit_codes() {
   return codes;
 }
 
-/// "a/../b" as the path that it is: writers refuse to leave a folder that they have gone into.
-std::filesystem::path output_folder(const std::filesystem::path& given) {
-  const bool up = std::ranges::find(given, std::filesystem::path("..")) != given.end();
-  if (!up || given.lexically_normal() == given) return given;
-  std::error_code error;
-  const std::filesystem::path straight = std::filesystem::weakly_canonical(given, error);
-  return error ? given : straight;
-}
-
-}  // namespace
-
 RunRequest run_request(const Arguments& arguments) {
   RunRequest request;
   request.scenarios = arguments.words("SCENARIO");
@@ -163,16 +165,11 @@ RunRequest run_request(const Arguments& arguments) {
   request.scale = arguments.text("scale");
   request.threads = threads(arguments);
   request.overrides = overrides(arguments);
-  request.figure = arguments.text("only");
   request.only_case = arguments.text("case");
-  const auto& formats = arguments.texts("format");
-  request.html = std::ranges::find(formats, "html") != formats.end();
-  request.pdf = std::ranges::find(formats, "pdf") != formats.end();
-  request.pdf_seconds = static_cast<double>(arguments.number("pdf-timeout"));
+  take_report_options(arguments, request);
   request.report_only = arguments.has("report-only");
   request.force = arguments.has("force");
   request.quiet = arguments.has("quiet");
-  request.strict = arguments.has("strict");
   if (request.report_only && request.force) {
     throw dem::InputError({}, "--report-only", "does not go with --force", "choose one of them");
   }
@@ -202,7 +199,7 @@ Command verbs::run() {
                        {"dem-report scenarios/ldb_aspect_ratio.toml --scale paper -o results --threads 2",
                         "the published size, in another folder"},
                        {"dem-report scenarios/ldb_aspect_ratio.toml --report-only", "draw again, simulate nothing"}},
-          .exit_codes = exit_codes(),
+          .exit_codes = run_exit_codes(),
           .perform = perform};
 }
 

@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/study/study.h"
 #include "reports/commands/arguments.h"
+#include "reports/commands/command.h"
 
 namespace cli {
 
@@ -27,6 +29,17 @@ struct RunRequest {
 
 /// Throws dem::InputError when options do not go together.
 RunRequest run_request(const Arguments& arguments);
+
+/// The options that say what is drawn and what counts as well; collect has them too.
+std::vector<Option> report_options();
+void take_report_options(const Arguments& arguments, RunRequest& request);
+
+/// Everything that can be wrong with the input is found here, before anything is written: dem::InputError.
+std::vector<dem::Study> checked_studies(const RunRequest& request);
+
+/// Simulates and reports; the exit code.
+int run(const RunRequest& request);
+std::vector<ExitCode> run_exit_codes();
 
 /// How to make a report again: the options that shape it, without folders of this machine.
 std::string command_text(const RunRequest& request, const std::string& scenario);

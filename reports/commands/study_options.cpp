@@ -64,6 +64,8 @@ Option seed_option() {
           .high = std::uint64_t{1} << 53};
 }
 
+Option case_option() { return {.name = "case", .value = "ID", .help = "run only this case", .kind = OptionKind::text}; }
+
 Option set_option() {
   return {.name = "set",
           .value = "KEY=VALUE",
@@ -98,6 +100,14 @@ std::vector<dem::Study> read_studies(std::span<const std::string> files, const s
     studies.push_back(std::move(study));
   }
   return studies;
+}
+
+std::filesystem::path output_folder(const std::filesystem::path& given) {
+  const bool up = std::ranges::find(given, std::filesystem::path("..")) != given.end();
+  if (!up || given.lexically_normal() == given) return given;
+  std::error_code error;
+  const std::filesystem::path straight = std::filesystem::weakly_canonical(given, error);
+  return error ? given : straight;
 }
 
 std::string shell_quoted(const std::string& text) {

@@ -1,5 +1,6 @@
 #pragma once
 // Options that several commands share, and the studies that they ask for.
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@ Option output_option();   ///< -o, --output DIR
 Option scale_option();    ///< --scale SCALE
 Option threads_option();  ///< --threads N
 Option seed_option();     ///< --seed N
+Option case_option();     ///< --case ID
 Option set_option();      ///< --set KEY=VALUE, repeatable
 Option quiet_option();    ///< --quiet
 
@@ -27,6 +29,9 @@ std::vector<std::string> overrides(const Arguments& arguments);
 /// Reads and checks scenarios before anything is written. Throws dem::InputError, also when two would share a folder.
 std::vector<dem::Study> read_studies(std::span<const std::string> files, const std::string& scale,
                                      std::span<const std::string> overrides);
+
+/// "a/../b" as the path that it is: writers refuse to leave a folder that they have gone into.
+std::filesystem::path output_folder(const std::filesystem::path& given);
 
 /// `text` as one word of a shell.
 std::string shell_quoted(const std::string& text);

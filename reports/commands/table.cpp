@@ -7,7 +7,8 @@ namespace cli {
 std::span<const Command> commands() {
   static const std::vector<Command> table = {
       verbs::run(),  //
-      verbs::figures(), verbs::keys(), verbs::results(), verbs::help(), verbs::version(),
+      verbs::plan(), verbs::run_case(), verbs::collect(), verbs::figures(),
+      verbs::keys(), verbs::results(),  verbs::help(),    verbs::version(),
   };
   return table;
 }

@@ -4,11 +4,14 @@
 
 namespace cli::verbs {
 
-Command run();      ///< run.cpp
-Command figures();  ///< figures.cpp
-Command keys();     ///< keys.cpp
-Command results();  ///< results.cpp
-Command help();     ///< help.cpp
-Command version();  ///< version.cpp
+Command run();       ///< run.cpp
+Command plan();      ///< plan.cpp
+Command run_case();  ///< run_case.cpp
+Command collect();   ///< collect.cpp
+Command figures();   ///< figures.cpp
+Command keys();      ///< keys.cpp
+Command results();   ///< results.cpp
+Command help();      ///< help.cpp
+Command version();   ///< version.cpp
 
 }  // namespace cli::verbs

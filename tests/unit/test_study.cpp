@@ -478,6 +478,16 @@ TEST_CASE("a case that fails does not stop the others, and is tried again") {
   CHECK_FALSE(outcomes[1].record);
   meet = 1;
   CHECK(states(bench.run({"load.fails_at=2"})) == std::vector{kept, CaseState::failed, kept});
+
+  bench.options.report_only = true;  // its words are still known; not those of another content
+  const auto drawn = bench.run({"load.fails_at=2"});
+  CHECK(states(drawn) == std::vector{kept, CaseState::failed, kept});
+  CHECK(drawn[1].error == "the counter cannot be packed");
+  CHECK(bench.run({"load.fails_at=2", "load.steps=11"})[1].state == CaseState::missing);
+  bench.options.report_only = false;
+  CHECK(bench.run({"load.fails_at=2", "load.steps=11"})[1].state == CaseState::failed);
+  bench.options.report_only = true;  // of two contents, the last one counts
+  CHECK(bench.run({"load.fails_at=2"})[1].state == CaseState::missing);
 }
 
 TEST_CASE("--case runs one; the others are taken when they are current") {

@@ -117,11 +117,13 @@ bool load(const std::filesystem::path& path, const std::string& content, Part& p
   return false;
 }
 
+std::string file_of(const std::string& content) { return sha256(content).substr(0, 16) + ".h5"; }
+
 template <class Make>
 auto kept(const RunContext& context, const std::string& content, Make make) {
   using Part = decltype(make());
   if (context.specimens.empty()) return make();
-  const std::filesystem::path path = context.specimens / (sha256(content).substr(0, 16) + ".h5");
+  const std::filesystem::path path = context.specimens / file_of(content);
   const auto turn = context.turns ? context.turns->take(path) : std::unique_lock<std::mutex>();
   Part part;
   if (load(path, content, part, context)) return part;
@@ -138,6 +140,11 @@ Genesis genesis(const PackingSettings& settings, const std::vector<MineralGrains
   return {kept(context, content_of(settings), [&] { return pack(settings, context); }),
           kept(context, content_of(vessel, minerals, seed_scale, settings.seed),
                [&] { return seed_grains(vessel, minerals, seed_scale, settings.seed, context); })};
+}
+
+std::vector<std::string> genesis_files(const PackingSettings& settings, const std::vector<MineralGrains>& minerals,
+                                       double seed_scale) {
+  return {file_of(content_of(settings)), file_of(content_of(settings.vessel, minerals, seed_scale, settings.seed))};
 }
 
 }  // namespace dem::texture

@@ -94,4 +94,8 @@ struct Genesis {
 Genesis genesis(const PackingSettings& settings, const std::vector<MineralGrains>& minerals, double seed_scale,
                 RunContext& context);
 
+/// The names of its two files in the folder of specimens.
+std::vector<std::string> genesis_files(const PackingSettings& settings, const std::vector<MineralGrains>& minerals,
+                                       double seed_scale);
+
 }  // namespace dem::texture

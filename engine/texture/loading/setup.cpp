@@ -24,10 +24,26 @@ std::vector<BondSpec> group_contacts(const Packing& packing, const GrainMap& gra
   return bonds;
 }
 
-Specimen make_specimen(const Settings& settings, RunContext& context) {
+namespace {
+
+std::vector<MineralGrains> grains_of(const Settings& settings) {
   std::vector<MineralGrains> minerals;
   for (const Mineral& m : settings.minerals) minerals.push_back({m.share, m.diameter_min, m.diameter_max});
-  Genesis made = genesis(settings.packing, minerals, settings.seed_scale, context);
+  return minerals;
+}
+
+}  // namespace
+
+std::vector<std::string> specimen_files(const Settings& settings) {
+  return genesis_files(settings.packing, grains_of(settings), settings.seed_scale);
+}
+
+void keep_specimen(const Settings& settings, RunContext& context) {
+  (void)genesis(settings.packing, grains_of(settings), settings.seed_scale, context);
+}
+
+Specimen make_specimen(const Settings& settings, RunContext& context) {
+  Genesis made = genesis(settings.packing, grains_of(settings), settings.seed_scale, context);
   const std::vector<std::int32_t> order = order_in_slabs(made.packing.position, made.packing.radius);
   Specimen specimen;
   specimen.seeds = std::move(made.seeds);

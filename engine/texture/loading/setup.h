@@ -39,6 +39,10 @@ struct Specimen {
 /// Genesis, growth and contact groups (steps 1 to 4), reordered for the solver.
 Specimen make_specimen(const Settings& settings, RunContext& context);
 
+/// The files of its packing and seeds in context.specimens, and only those made.
+std::vector<std::string> specimen_files(const Settings& settings);
+void keep_specimen(const Settings& settings, RunContext& context);
+
 /// Step 4 alone: the law and the parameters of each contact.
 std::vector<BondSpec> group_contacts(const Packing& packing, const GrainMap& grains, const Settings& settings);
 
