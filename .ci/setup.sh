@@ -7,6 +7,8 @@ libtomlplusplus-dev libcxxopts-dev libfmt-dev nlohmann-json3-dev libkainjow-must
 libboost-dev libeigen3-dev libssl-dev librandom123-dev
 weasyprint fonts-dejavu-core"
 test_packages="doctest-dev tidy poppler-utils clang-format python3-jsonschema"
+# For test_slurm, which is skipped where these cannot be had.
+cluster_packages="slurmctld slurmd slurm-client munge"
 build="$root/build"
 lock="$root/.build.lock" # beside the build folder, which may have to be removed under it
 jobs=$(nproc 2>/dev/null || echo 2)
@@ -55,6 +57,17 @@ install_packages() {
       $as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o Acquire::Retries=3 install \
         --no-install-recommends $missing
   } >"$log" 2>&1 </dev/null || stop "$log" "the packages could not be installed"
+}
+
+# try_packages LIST: as install_packages, where that needs no question; tests that want them skip without
+try_packages() {
+  command -v dpkg-query >/dev/null 2>&1 && [ "$(id -u)" -eq 0 ] || return 0
+  missing=$(missing_packages "$1")
+  [ -n "$missing" ] || return 0
+  say "installing Debian packages (once): $missing"
+  # shellcheck disable=SC2086 # the list is meant to be split
+  DEBIAN_FRONTEND=noninteractive apt-get -q -y -o Acquire::Retries=3 install --no-install-recommends $missing \
+    >"$build/cluster-packages.log" 2>&1 </dev/null || say "they could not be installed; test_slurm is skipped"
 }
 
 # configure OPTION...: makes or refreshes the build folder

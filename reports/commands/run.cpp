@@ -8,6 +8,7 @@
 #include "engine/core/instruction_set.h"
 #include "engine/study/study.h"
 #include "reports/commands/assets.h"
+#include "reports/commands/executor.h"
 #include "reports/commands/machine.h"
 #include "reports/commands/reporter.h"
 #include "reports/commands/signals.h"
@@ -20,18 +21,6 @@
 
 namespace cli {
 namespace {
-
-dem::StudyOptions study_options(const RunRequest& request) {
-  dem::StudyOptions options;
-  options.output = request.output;
-  options.threads = request.threads;
-  options.memory = memory_bytes();
-  options.only_case = request.only_case;
-  options.report_only = request.report_only;
-  options.force = request.force;
-  options.stop = &stop_asked();
-  return options;
-}
 
 ReporterOptions reporter_options(const RunRequest& request) {
   ReporterOptions options;
@@ -74,6 +63,7 @@ std::vector<Option> options() {
   add({{.name = "report-only", .help = "draw from the records that are there, simulate nothing"},
        {.name = "force", .help = "simulate also the cases whose record is current"}});
   add(report_options());
+  add(executor_options());
   add({quiet_option(),
        {.name = "explain-keys", .help = "the same as dem-report keys", .verb = "keys"},
        {.name = "list-figures", .help = "the same as dem-report figures", .verb = "figures"},
@@ -82,6 +72,18 @@ std::vector<Option> options() {
 }
 
 }  // namespace
+
+dem::StudyOptions study_options(const RunRequest& request) {
+  dem::StudyOptions options;
+  options.output = request.output;
+  options.threads = request.threads;
+  options.memory = memory_bytes();
+  options.only_case = request.only_case;
+  options.report_only = request.report_only;
+  options.force = request.force;
+  options.stop = &stop_asked();
+  return options;
+}
 
 std::vector<dem::Study> checked_studies(const RunRequest& request) {
   std::vector<dem::Study> studies = read_studies(request.scenarios, request.scale, request.overrides);
@@ -98,6 +100,8 @@ int run(const RunRequest& request) {
   for (const dem::Study& study : studies) {
     for (const std::string& note : study.notes) std::cerr << "dem-report: note: " << note << "\n";
   }
+  const Executor& executor = find_executor(request.executor.name);
+  executor.check(request);
   if (request.pdf) reports::check_printing();
   (void)dem::instruction_sets();  // a wrong DEM_SIMD is found before anything runs
   Reporter reporter(reporter_options(request));
@@ -106,9 +110,11 @@ int run(const RunRequest& request) {
   bool well = true;
   try {
     reports::check_drawing([] { return stop_asked().load(); });
+    const Work work{request, studies, progress};
+    const std::optional<CaseSource> outcomes_of = executor.begin(work);
+    if (!outcomes_of) return 0;
     for (const dem::Study& study : studies) {
-      progress.start(static_cast<int>(study.cases.size()));
-      const auto outcomes = dem::run_study(study, study_options(request), progress_listener(progress));
+      const auto outcomes = (*outcomes_of)(study);
       progress.say("drawing the figures and the report");
       well = reporter.report(study, outcomes, command_text(request, study.scenario.file())) && well;
     }
@@ -167,6 +173,7 @@ RunRequest run_request(const Arguments& arguments) {
   request.overrides = overrides(arguments);
   request.only_case = arguments.text("case");
   take_report_options(arguments, request);
+  request.executor = executor_request(arguments);
   request.report_only = arguments.has("report-only");
   request.force = arguments.has("force");
   request.quiet = arguments.has("quiet");

@@ -10,6 +10,16 @@
 
 namespace cli {
 
+/// Where to simulate; what is not given is empty or 0.
+struct ExecutorRequest {
+  std::string name = "local";
+  std::string partition, time_limit;
+  std::size_t cases_per_job = 0;
+  std::vector<std::string> sbatch;
+  bool detach = false;
+  bool threads_given = false;  ///< RunRequest::threads is the user's
+};
+
 struct RunRequest {
   std::vector<std::string> scenarios;
   std::filesystem::path output;
@@ -25,6 +35,7 @@ struct RunRequest {
   double pdf_seconds = 0;  ///< --pdf-timeout
   bool quiet = false;
   bool strict = false;
+  ExecutorRequest executor;
 };
 
 /// Throws dem::InputError when options do not go together.
