@@ -4,19 +4,22 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
 
 #include "engine/core/cell_grid.h"
 #include "engine/core/errors.h"
+#include "engine/core/threads.h"
 #include "engine/lattice/grid.h"
-#include "engine/lattice/team.h"
 
 namespace dem::lattice {
 namespace {
 
 using Elements = std::vector<std::int32_t>;
+
+constexpr int stretch = 50;  // steps on one number of threads
 
 const Kernel& kernel_of(InstructionSet set) {
   if (!processor_has(set)) throw InputError(fmt::format("this processor does not have {}", name_of(set)));
@@ -111,6 +114,7 @@ struct Solver::Impl {
   std::vector<std::vector<Event>> event_store;   // by thread
   std::vector<Events> events;
   std::vector<Crack> cracks;
+  Pace pace;
   std::int64_t step = 0;
   std::int64_t opening = 0, sliding = 0;
   double heat_normal = 0, heat_shear = 0;
@@ -217,32 +221,40 @@ struct Solver::Impl {
   }
 
   struct Job {
-    int steps;
+    int first, last;  // steps
     double drift[2];
     bool sample, stop_on_break;
     std::atomic<bool> broke[4] = {};  // by step modulo 4: a thread may be one step ahead of another
   };
 
-  int work(int thread, Job& job, Barrier& barrier) {
-    const Share share = grid.shares[at(thread)];
-    Events& mine = events[at(thread)];
+  // The shares of rows of one thread out of so many; its last share lies before that of the next thread.
+  void work(int thread, int threads, Job& job, Barrier& barrier) {
+    const int all = static_cast<int>(grid.shares.size());
+    const int begin = all * thread / threads, end = all * (thread + 1) / threads;
     const bool local = planes_are_local();
-    const bool first = thread == 0, last = thread + 1 == static_cast<int>(grid.shares.size());
-    for (int s = 0; s < job.steps; ++s) {
-      const int before = mine.count;
-      mine.step = step + s;
-      for (int g = share.first; g < share.last; ++g) {
-        if (g == share.lead) g = share.early;
-        if (g < share.last && grid.length[at(g)] > 0) kernel.forces(constants, grid.rows[at(g)], job.sample, mine);
+    const bool first = thread == 0, last = thread + 1 == threads;
+    for (int s = job.first; s < job.last; ++s) {
+      for (int k = begin; k < end; ++k) {
+        const Share share = grid.shares[at(k)];
+        events[at(k)].step = step + s;
+        for (int g = share.first; g < share.last; ++g) {
+          if (g == share.lead) g = share.early;
+          if (g < share.last && grid.length[at(g)] > 0)
+            kernel.forces(constants, grid.rows[at(g)], job.sample, events[at(k)]);
+        }
       }
       if (first) job.broke[(s + 2) & 3].store(false, std::memory_order_relaxed);
       barrier.wait();
-      for (int g = share.first; g < share.last; ++g) {
-        if (grid.length[at(g)] == 0) continue;
-        if (g >= share.lead && g < share.early) kernel.forces(constants, grid.rows[at(g)], job.sample, mine);
-        kernel.advance(constants, grid.rows[at(g)], job.sample);
+      for (int k = begin; k < end; ++k) {
+        const Share share = grid.shares[at(k)];
+        for (int g = share.first; g < share.last; ++g) {
+          if (grid.length[at(g)] == 0) continue;
+          if (g >= share.lead && g < share.early) kernel.forces(constants, grid.rows[at(g)], job.sample, events[at(k)]);
+          kernel.advance(constants, grid.rows[at(g)], job.sample);
+        }
+        if (events[at(k)].count > 0 && events[at(k)].items[events[at(k)].count - 1].step == step + s)
+          job.broke[s & 3].store(true, std::memory_order_relaxed);
       }
-      if (mine.count != before) job.broke[s & 3].store(true, std::memory_order_relaxed);
       if (!local) barrier.wait();
       const bool measure = s < 2;
       for (std::size_t side = 0; side < 2; ++side) {
@@ -250,29 +262,40 @@ struct Solver::Impl {
           serve_plane(planes[side], s == 0 ? job.drift[side] : 0.0, measure, job.sample);
       }
       barrier.wait();
-      if (job.stop_on_break && job.broke[s & 3].load(std::memory_order_relaxed)) return s + 1;
-    }
-    return job.steps;
-  }
-
-  int run(int steps, double low, double high, bool sample, bool stop_on_break) {
-    if (steps <= 0) return 0;
-    Job job{steps, {low, high}, sample, stop_on_break};
-    const int threads = static_cast<int>(grid.shares.size());
-    Barrier barrier(threads);
-    int made = 0;
-    if (threads == 1) {
-      made = work(0, job, barrier);
-    } else {
-#pragma omp parallel num_threads(threads)
-      {
-        const int done = work(omp_get_thread_num(), job, barrier);
-        if (omp_get_thread_num() == 0) made = done;
+      if (job.stop_on_break && job.broke[s & 3].load(std::memory_order_relaxed)) {
+        if (first) job.last = s + 1;  // who is here reads it no more
+        return;
       }
     }
-    step += made;
+  }
+
+  // In short stretches, between which the number of threads may change: the bits depend on the shares of rows alone.
+  int run(int steps, double low, double high, bool sample, bool stop_on_break) {
+    if (steps <= 0) return 0;
+    const int most = static_cast<int>(grid.shares.size());
+    Job job{0, 0, {low, high}, sample, stop_on_break};
+    for (bool stopped = false; job.last < steps && !stopped;) {
+      job.first = job.last;
+      const int until = job.last = most > 1 ? std::min(steps, job.first + stretch) : steps;
+      const auto start = std::chrono::steady_clock::now();
+      const int threads = pace.threads(most);
+      Barrier barrier(threads);
+      if (threads == 1) {
+        work(0, 1, job, barrier);
+      } else {
+#pragma omp parallel num_threads(threads)
+        {
+#pragma omp single
+          barrier.set_threads(omp_get_num_threads());
+          work(omp_get_thread_num(), omp_get_num_threads(), job, barrier);
+        }
+      }
+      stopped = job.last < until;
+      pace.done(job.last - job.first, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    }
+    step += job.last;
     collect();
-    return made;
+    return job.last;
   }
 
   void collect() {

@@ -551,6 +551,14 @@ Relaxation ConvergedSolver::relax(Sheet& sheet, Forces& forces, std::span<const 
   return impl_->relax(sheet, forces, near);
 }
 SolverWork ConvergedSolver::work() const { return impl_->done; }
+void ConvergedSolver::set_threads(int threads) {
+  Impl& i = *impl_;
+  if (i.settings.threads == threads) return;
+  i.settings.threads = threads;
+  i.factor.set_threads(threads);
+  i.patches.set_threads(threads);
+  i.operator_of_state.set_threads(threads);
+}
 ConvergedState ConvergedSolver::state() const {
   const Impl& i = *impl_;
   return {i.matrix.coupling, i.changes, i.heat, i.extra_solves, i.worth, i.load_moved};

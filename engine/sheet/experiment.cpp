@@ -1,6 +1,7 @@
 #include "engine/sheet/experiment.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -91,7 +92,7 @@ void Experiment::load_part() {
   while (halves && state_.size > 1 && (std::fabs(part.lost) > allowed || !part.relaxation.reached)) {
     state_.size /= 2;
     s.x = x, s.y = y, s.radius = radius;
-    compute_forces(s, forces_, threads_);
+    compute_forces(s, forces_, pace_.threads(threads_));
     part = apply(share(state_.left), share(state_.left - state_.size));
   }
   relaxed(part.relaxation);
@@ -126,7 +127,7 @@ bool Experiment::failed() const {
 bool Experiment::break_one() {
   Sheet& s = *sheet_;
   if (static_cast<int>(state_.breaks.size()) >= loading_.most_breaks || failed()) return false;
-  const Critical critical = most_critical(s, forces_, threads_);
+  const Critical critical = most_critical(s, forces_, pace_.threads(threads_));
   if (critical.slot < 0 || critical.ratio < 1) return false;
   const auto i = static_cast<std::size_t>(s.first(critical.slot)),
              j = static_cast<std::size_t>(s.second(critical.slot));
@@ -171,11 +172,17 @@ void Experiment::close_step() {
 
 bool Experiment::advance() {
   if (state_.finished) return false;
+  solver_->set_threads(pace_.threads(threads_));
+  const auto start = std::chrono::steady_clock::now();
+  const SolverWork before = solver_->work();
   if (!state_.breaking) {
     load_part();
   } else if (!break_one()) {
     close_step();
   }
+  const SolverWork after = solver_->work();
+  pace_.done(static_cast<double>(after.solves - before.solves),
+             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   return !state_.finished;
 }
 

@@ -11,6 +11,7 @@
 #include <functional>
 #include <vector>
 
+#include "engine/core/threads.h"
 #include "engine/sheet/solver.h"
 
 namespace dem::sheet {
@@ -124,7 +125,8 @@ class Experiment {
   Sheet* sheet_;
   Solver* solver_;
   Loading loading_;
-  int threads_;
+  int threads_;  // at most
+  Pace pace_;    // and how many of them it takes now
   Forces forces_;
   ExperimentState state_;
   std::vector<double> start_x_, start_y_;  // undeformed, for the places of cracks

@@ -12,6 +12,10 @@ class ModifiedFactor {
  public:
   ModifiedFactor(const Dissection& dissection, int threads, Factor::Again again = Factor::Again::whole)
       : factor_(dissection, threads, again), threads_(threads) {}
+  void set_threads(int threads) {
+    threads_ = threads;
+    factor_.set_threads(threads);
+  }
 
   /// Takes a new K0 and forgets all changes; returns the number of negative pivots.
   int factorise(const BlockMatrix& matrix, PivotRule rule = {});

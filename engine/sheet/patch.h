@@ -32,6 +32,7 @@ class Patches {
   static void settle(Sheet& sheet, Forces& forces, const LatticeBox& box, double small);
 
   explicit Patches(int threads) : threads_(threads) {}
+  void set_threads(int threads) { threads_ = threads; }
 
  private:
   struct Local;

@@ -32,6 +32,8 @@ class Solver {
   /// `near` lists slots that broke since the last call (an empty list: the load moved).
   virtual Relaxation relax(Sheet& sheet, Forces& forces, std::span<const int> near) = 0;
   [[nodiscard]] virtual SolverWork work() const = 0;
+  /// Of the relaxations that follow; no result hangs on their number.
+  virtual void set_threads(int threads) = 0;
 };
 
 struct ConvergedSettings {
@@ -68,6 +70,7 @@ class ConvergedSolver final : public Solver {
   ~ConvergedSolver() override;
   Relaxation relax(Sheet& sheet, Forces& forces, std::span<const int> near) override;
   [[nodiscard]] SolverWork work() const override;
+  void set_threads(int threads) override;
   [[nodiscard]] ConvergedState state() const;
   void restore(const Sheet& sheet, const ConvergedState& state);
 
@@ -87,6 +90,7 @@ class HistoricalSolver final : public Solver {
   explicit HistoricalSolver(HistoricalSettings settings, int threads) : settings_(settings), threads_(threads) {}
   Relaxation relax(Sheet& sheet, Forces& forces, std::span<const int> near) override;
   [[nodiscard]] SolverWork work() const override { return work_; }
+  void set_threads(int threads) override { threads_ = threads; }
 
  private:
   HistoricalSettings settings_;

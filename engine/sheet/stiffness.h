@@ -34,6 +34,7 @@ BlockMatrix assemble(const Sheet& sheet, const Forces& forces, Tangent tangent =
 class TangentOperator {
  public:
   explicit TangentOperator(int threads) : threads_(threads) {}
+  void set_threads(int threads) { threads_ = threads; }
   /// Takes the tangent of this state. The sheet must last as long as it is applied, and is the same in every call.
   void update(const Sheet& sheet, const Forces& forces);
   /// out = K v (particles held as in `assemble`), zero along held directions. Same bits for any number of threads.

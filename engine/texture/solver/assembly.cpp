@@ -4,7 +4,9 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <chrono>
 
+#include "engine/core/threads.h"
 #include "engine/texture/solver/forces.h"
 #include "engine/texture/solver/motion.h"
 #include "engine/texture/solver/packs.h"
@@ -54,41 +56,15 @@ void Assembly::move_slab(std::size_t slab) {
 }
 
 Sample Assembly::advance(std::int64_t steps) {
-  const std::size_t slabs = slabs_.count(), pairs = slabs - 1;
-  const std::int64_t first = step_;
-  const bool rest = !blocks_.back().spheres.empty() || !blocks_.back().candidates.empty();
-#pragma omp parallel num_threads(threads_)
-  for (std::int64_t step = first; step < first + steps; ++step) {
-    const bool sampling = step + 1 == first + steps;
-    // 1. inside slabs; the slabs of a thread are the same here and in the motion, so that no barrier is needed between
-#pragma omp for schedule(static, 1) nowait
-    for (std::size_t slab = 0; slab < slabs; ++slab) {
-      work_on(slab, step);
-      walls_.press(slab, particles_);
-    }
-#pragma omp barrier
-#pragma omp single nowait
-    walls_.move(particles_.step);
-    // 2. between slabs: even pairs, then odd ones
-#pragma omp for schedule(dynamic, 1)
-    for (std::size_t pair = 0; pair < pairs; pair += 2) work_on(slabs + pair, step);
-#pragma omp for schedule(dynamic, 1)
-    for (std::size_t pair = 1; pair < pairs; pair += 2) work_on(slabs + pair, step);
-    if (rest) {  // contacts that failure made between slabs further apart
-#pragma omp single
-      work_on(slabs_.blocks() - 1, step);
-    }
-    if (sampling) {
-#pragma omp for schedule(dynamic, 1)
-      for (std::size_t b = 0; b < blocks_.size(); ++b) {
-        blocks_[b].account.elastic = stored_energy(blocks_[b], particles_, *kernels_);
-      }
-    }
-    // 3. motion
-#pragma omp for schedule(static, 1) nowait
-    for (std::size_t slab = 0; slab < slabs; ++slab) move_slab(slab);
+  // In short stretches, between which the number of threads may change: the bits do not depend on it.
+  for (std::int64_t left = steps; left > 0;) {
+    const std::int64_t stretch = threads_ > 1 ? std::min(left, look_interval) : left;
+    const auto start = std::chrono::steady_clock::now();
+    left -= stretch;
+    run(stretch, left == 0, pace_.threads(threads_));
+    pace_.done(static_cast<double>(stretch),
+               std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
-  step_ += steps;
   const Sample taken = sample();
   for (Block& block : blocks_) {
     close_ranks(block.joints, block.joint_contact);
@@ -96,6 +72,52 @@ Sample Assembly::advance(std::int64_t steps) {
   }
   maintain();
   return taken;
+}
+
+void Assembly::run(std::int64_t steps, bool sampled, int threads) {
+  const std::size_t slabs = slabs_.count(), pairs = slabs - 1;
+  const std::int64_t end = step_ + steps;
+  const bool rest = !blocks_.back().spheres.empty() || !blocks_.back().candidates.empty();
+  Barrier barrier;  // spins less than OpenMP's own, and asks the system only when a thread sleeps
+#pragma omp parallel num_threads(threads)
+  {
+#pragma omp single
+    barrier.set_threads(omp_get_num_threads());
+    for (std::int64_t step = step_; step < end; ++step) {
+      // 1. inside slabs; the slabs of a thread are the same here and in the motion, so that no barrier is needed between
+#pragma omp for schedule(static, 1) nowait
+      for (std::size_t slab = 0; slab < slabs; ++slab) {
+        work_on(slab, step);
+        walls_.press(slab, particles_);
+      }
+      barrier.wait();
+#pragma omp single nowait
+      walls_.move(particles_.step);
+      // 2. between slabs: even pairs, then odd ones
+#pragma omp for schedule(dynamic, 1) nowait
+      for (std::size_t pair = 0; pair < pairs; pair += 2) work_on(slabs + pair, step);
+      barrier.wait();
+#pragma omp for schedule(dynamic, 1) nowait
+      for (std::size_t pair = 1; pair < pairs; pair += 2) work_on(slabs + pair, step);
+      barrier.wait();
+      if (rest) {  // contacts that failure made between slabs further apart
+#pragma omp single nowait
+        work_on(slabs_.blocks() - 1, step);
+        barrier.wait();
+      }
+      if (sampled && step + 1 == end) {
+#pragma omp for schedule(dynamic, 1) nowait
+        for (std::size_t b = 0; b < blocks_.size(); ++b) {
+          blocks_[b].account.elastic = stored_energy(blocks_[b], particles_, *kernels_);
+        }
+        barrier.wait();
+      }
+      // 3. motion
+#pragma omp for schedule(static, 1) nowait
+      for (std::size_t slab = 0; slab < slabs; ++slab) move_slab(slab);
+    }
+  }
+  step_ = end;
 }
 
 Sample Assembly::sample() {

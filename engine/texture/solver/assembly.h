@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/core/threads.h"
 #include "engine/texture/solver/account.h"
 #include "engine/texture/solver/block.h"
 #include "engine/texture/solver/input.h"
@@ -49,13 +50,15 @@ class Assembly {
   }
 
  private:
+  void run(std::int64_t steps, bool sampled, int threads);
   void work_on(std::size_t block, std::int64_t step);
   void move_slab(std::size_t slab);
   Sample sample();
   void maintain();
 
   // fixed after installation
-  int threads_ = 1;
+  int threads_ = 1;  ///< at most
+  Pace pace_;        ///< and how many of them it takes now
   const Kernels* kernels_ = nullptr;
   double damping_ = 0;
   Slabs slabs_;
