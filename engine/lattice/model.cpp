@@ -87,7 +87,8 @@ std::vector<CaseSpec> cases(const Scenario& s) {
         key("test"));
   }
   if (all.empty())
-    throw InputError({s.file(), 0, 0}, "tests", "there is no case", "list at least one test and one block");
+    throw s.error(s.texts("tests").empty() ? "tests" : "sweep.elements_y", "there is no case",
+                  "list at least one test and one block");
   return all;
 }
 

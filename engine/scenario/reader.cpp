@@ -236,7 +236,7 @@ std::string meant_in_line(std::string_view text, std::uint32_t line) {
               : std::string();
 }
 
-constexpr int most_dots = 2000;
+constexpr int most_dots = 500, most_nested = 8;
 
 /// The first line with more dots, 0: there is none. toml++ goes one call deeper for each dot of a key, and with tens of
 /// thousands beyond the stack.
@@ -249,7 +249,39 @@ int line_of_many_dots(std::string_view text) {
   return 0;
 }
 
+/// The first line where lists and tables are nested deeper, 0: there is none; each level may have a key of many dots.
+int line_of_deep_nesting(std::string_view text) {
+  int line = 1, depth = 0;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (c == '\n') ++line;
+    if (c == '#') at = std::min(text.find('\n', at), text.size()) - 1;
+    if (c == '"' || c == '\'') {  // to the end of the text
+      const bool wide = text.substr(at, 3) == std::string(3, c);
+      const std::string end(wide ? 3 : 1, c);
+      for (at += end.size(); at < text.size() && text.substr(at, end.size()) != end; ++at) {
+        if (text[at] == '\n') {
+          if (!wide) break;  // not TOML: the parser says so
+          ++line;
+        }
+        if (c == '"' && text[at] == '\\') ++at;
+      }
+      at += end.size() - 1;
+      if (at < text.size() && text[at] == '\n') ++line;
+    }
+    if (c == '[' || c == '{') ++depth;
+    if (c == ']' || c == '}') depth = std::max(depth - 1, 0);
+    if (depth > most_nested) return line;
+  }
+  return 0;
+}
+
 toml::table parse(const std::string& text, const std::string& file) {
+  if (const int line = line_of_deep_nesting(text); line > 0) {
+    throw InputError({file, line, 1}, {},
+                     "lists and tables are nested more than " + std::to_string(most_nested) + " deep",
+                     "no key of a scenario needs more than two");
+  }
   if (const int line = line_of_many_dots(text); line > 0) {
     throw InputError({file, line, 1}, {}, "the line has more than " + std::to_string(most_dots) + " dots",
                      "break long lists over several lines");
@@ -307,6 +339,10 @@ Override parse_override(const std::string& text) {
     throw InputError(where, path, "there is no value after '='", example);
   }
   try {
+    if (line_of_deep_nesting(value) > 0) {
+      throw InputError(where, path, "lists and tables are nested more than " + std::to_string(most_nested) + " deep",
+                       example);
+    }
     if (line_of_many_dots(value) > 0) {
       throw InputError(where, path, "more than " + std::to_string(most_dots) + " dots", example);
     }

@@ -149,6 +149,14 @@ class Run {
     Record r = new_record(model(), spec_);
     const Specimen before{initial_, specimen_.map, specimen_.cover, specimen_.grains, specimen_.grows};
     add_results(r, settings_, before, *experiment_, total_work());
+    if (kept_.next_snapshot < settings_.snapshots.size()) {
+      r.notes.push_back(
+          fmt::format("The loading ended at a strain of {:g}, before the snapshots at {:g}: {}.", experiment_->strain(),
+                      fmt::join(std::span(settings_.snapshots).subspan(kept_.next_snapshot), ", "),
+                      static_cast<int>(experiment_->state().breaks.size()) >= settings_.loading.most_breaks
+                          ? "most_breaks springs were broken"
+                          : "the stress had fallen below its stop_share"));
+    }
     for (std::size_t k = 0; k < kept_.fields.size(); k += 4) {
       r.tables.push_back(table_of(fmt::format("snapshots/{:04}", k / 4), kept_.fields, k));
     }

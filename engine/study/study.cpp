@@ -345,6 +345,16 @@ void tell_idle_keys(Study& study) {
   }
 }
 
+// The key that most likely makes cases twice: a list of the sweep, a table of `extra`, the tests.
+std::string listed(const Scenario& scenario, const Model& model) {
+  std::string found = "tests";
+  for (const auto& [path, key] : scenario.given_keys(model.keys())) {
+    if (path.starts_with("extra")) found = path;
+    if (path.starts_with("sweep.")) return path;
+  }
+  return found;
+}
+
 }  // namespace
 
 Study read_study(const std::string& file, std::string_view scale, std::span<const std::string> overrides,
@@ -359,8 +369,8 @@ Study read_study(const std::string& file, std::string_view scale, std::span<cons
   std::set<std::string> seen;
   for (const CaseSpec& spec : study.cases) {
     if (!seen.insert(spec.id).second) {
-      throw InputError(Location{file, 0, 0}, {}, "two cases are alike (" + spec.id + ")",
-                       "give every value of a sweep once");
+      throw scenario.error(listed(scenario, model), "two cases are alike (" + spec.id + ")",
+                           "give every value of a sweep once");
     }
   }
   tell_idle_keys(study);

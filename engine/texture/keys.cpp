@@ -443,7 +443,7 @@ Settings read_settings(const Scenario& s, std::string_view test) {
     r.minerals.push_back(std::move(m));
   }
   if (count == 0)
-    throw InputError({s.file(), 0, 0}, "mineral", "no mineral is given", "write at least one [[mineral]] table");
+    throw s.error("model", "no mineral is given", "this model needs at least one [[mineral]] table");
   if (std::abs(sum - 1) > 1e-6) {
     throw s.error(fmt::format("mineral[{}].share", count - 1),
                   fmt::format("the shares of the minerals add to {:.6g} %", 100 * sum), "they must add to 100 %");

@@ -214,6 +214,17 @@ TEST_CASE("snapshots beyond the end of the loading, and lists that name a value 
   CHECK(close[1].id == "pure_shear_spread_0_50000001");
 }
 
+TEST_CASE("snapshots that an early end does not reach are told") {
+  const dem::Record r = run(model()
+                                .cases(scenario("elle_layer_extension",
+                                                {"sheet.columns=40", "grains.layer_low=0.45", "grains.layer_high=0.55",
+                                                 "loading.most_breaks=1", "loading.snapshots=[0.0005, 0.02, 0.0245]"}))
+                                .front());
+  REQUIRE(!r.notes.empty());
+  CHECK(r.notes.back().find("before the snapshots at 0.02, 0.0245: most_breaks springs were broken") !=
+        std::string::npos);
+}
+
 TEST_CASE("a record holds what figures and summary need") {
   auto s = scenario("elle_layer_extension", {"sheet.columns=40", "loading.steps=24", "grains.layer_low=0.45",
                                              "grains.layer_high=0.55", "loading.snapshots=[0.005, 0.01]"});

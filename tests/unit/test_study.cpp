@@ -529,8 +529,8 @@ TEST_CASE("output that cannot be written is named") {
 
 TEST_CASE("a sweep with a value twice is refused") {
   Bench bench;
-  CHECK_THROWS_WITH_AS(bench.run({"sweep.value=[1, 1]"}), doctest::Contains("two cases are alike (count_1)"),
-                       dem::InputError);
+  CHECK_THROWS_WITH_AS(bench.run({"sweep.value=[1, 1]"}),
+                       doctest::Contains("sweep.value: two cases are alike (count_1)"), dem::InputError);
 }
 
 TEST_CASE("keys that change nothing: refused from --set, told from the scenario, passed over from what it includes") {
