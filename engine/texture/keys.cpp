@@ -442,8 +442,7 @@ Settings read_settings(const Scenario& s, std::string_view test) {
     sum += m.share;
     r.minerals.push_back(std::move(m));
   }
-  if (count == 0)
-    throw s.error("model", "no mineral is given", "this model needs at least one [[mineral]] table");
+  if (count == 0) throw s.error("model", "no mineral is given", "this model needs at least one [[mineral]] table");
   if (std::abs(sum - 1) > 1e-6) {
     throw s.error(fmt::format("mineral[{}].share", count - 1),
                   fmt::format("the shares of the minerals add to {:.6g} %", 100 * sum), "they must add to 100 %");
