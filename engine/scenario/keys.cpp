@@ -98,7 +98,9 @@ std::string explain(std::span<const Key> keys) {
     }
     text += "  " + key.path.substr(dot == std::string::npos ? 0 : dot + 1) + ": " + type_text(key);
     if (const std::string limit = limit_text(key); !limit.empty()) text += ", " + limit;
-    text += key.standard.empty() ? ", required" : ", default " + key.standard;
+    text += !key.otherwise.empty() ? ", default that of " + key.otherwise
+            : key.standard.empty() ? ", required"
+                                   : ", default " + key.standard;
     text += "\n      " + key.help + "\n";
   }
   return text;

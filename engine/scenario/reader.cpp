@@ -439,7 +439,18 @@ void complete(const Declared& declared, const std::string& file, std::span<const
         scenario.values[path] = {standard_value(key), where, false};
         continue;
       }
+      if (!key.otherwise.empty()) continue;
       throw InputError(where, path, "the key is missing", "add " + expectation(key) + " (" + key.help + ")");
+    }
+  }
+  for (const Key& key : declared.keys()) {
+    if (key.otherwise.empty()) continue;
+    std::vector<std::string> paths;
+    concrete_paths(key.path, scenario, paths);
+    for (const std::string& path : paths) {
+      if (scenario.values.contains(path)) continue;
+      scenario.values[path] = scenario.values.at(key.otherwise);
+      scenario.values[path].given = false;
     }
   }
 }

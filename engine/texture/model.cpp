@@ -25,13 +25,15 @@ constexpr std::string_view physics_version = "grain_texture 6";
 /// One specimen of the scenario, and the pressure that it is tested under.
 struct Variant {
   double aspect_ratio = 1, dip = 0, seed_scale = 1;  ///< -, rad, -
-  std::string growth, only_mineral;
+  std::string growth = {}, between = {}, only_mineral = {};
+  double pressure_ratio = 0;      ///< of the packing
   double confining_pressure = 0;  ///< Pa
   std::int64_t seed = 1;
   std::optional<std::size_t> extra = {};  ///< the [[extra]] that asks for it; none: the sweeps do
 
   [[nodiscard]] auto values() const {
-    return std::tie(aspect_ratio, dip, seed_scale, growth, only_mineral, confining_pressure, seed);
+    return std::tie(aspect_ratio, dip, seed_scale, growth, between, only_mineral, pressure_ratio, confining_pressure,
+                    seed);
   }
 };
 
@@ -55,6 +57,8 @@ CaseSpec case_of(const Scenario& base, const std::string& test, const Variant& v
   Scenario scenario = base.with("texture.aspect_ratio", v.aspect_ratio, from("aspect_ratio"))
                           .with("texture.seed_scale", v.seed_scale, from("seed_scale"))
                           .with("texture.growth", v.growth, from("growth"))
+                          .with("interaction.between", v.between, from("between"))
+                          .with("packing.pressure_ratio", v.pressure_ratio, from("pressure_ratio"))
                           .with("texture.dip", v.dip, from("dip"))
                           .with("texture.only_mineral", v.only_mineral, from("mineral"))
                           .with("compression.confining_pressure", v.confining_pressure, from("confining_pressure"))
@@ -65,6 +69,8 @@ CaseSpec case_of(const Scenario& base, const std::string& test, const Variant& v
   if (pressure > 0) id += "_sigma3_" + id_part(pressure);
   if (v.seed_scale != base.real("texture.seed_scale")) id += "_seed_scale_" + id_part(v.seed_scale);
   if (v.growth != base.text("texture.growth")) id += "_" + v.growth;
+  if (v.between != base.text("interaction.between")) id += "_between_" + v.between;
+  if (v.pressure_ratio != base.real("packing.pressure_ratio")) id += "_pressure_ratio_" + id_part(v.pressure_ratio);
   if (v.seed != static_cast<std::int64_t>(base.seed())) id += fmt::format("_seed_{}", v.seed);
   const auto of = [](const Parameter& parameter, ParameterValue value) {
     return std::pair{std::string(parameter.id), std::move(value)};
@@ -74,6 +80,8 @@ CaseSpec case_of(const Scenario& base, const std::string& test, const Variant& v
                            of(parameter::dip, dip),
                            of(parameter::seed_scale, v.seed_scale),
                            of(parameter::growth, v.growth),
+                           of(parameter::between, v.between),
+                           of(parameter::pressure_ratio, v.pressure_ratio),
                            of(parameter::mineral, v.only_mineral),
                            of(parameter::confining_pressure, pressure),
                            of(parameter::seed, static_cast<double>(v.seed))};
@@ -120,7 +128,14 @@ std::vector<Variant> variants_of(const Scenario& s) {
     for (const double ar : swept(s, "sweep.aspect_ratio", "texture.aspect_ratio")) {
       for (const double dip : swept(s, "sweep.dip", "texture.dip")) {
         for (const double pressure : swept(s, "sweep.confining_pressure", "compression.confining_pressure")) {
-          add_repeats({ar, dip, s.real("texture.seed_scale"), s.text("texture.growth"), mineral, pressure, 1},
+          add_repeats({.aspect_ratio = ar,
+                       .dip = dip,
+                       .seed_scale = s.real("texture.seed_scale"),
+                       .growth = s.text("texture.growth"),
+                       .between = s.text("interaction.between"),
+                       .only_mineral = mineral,
+                       .pressure_ratio = s.real("packing.pressure_ratio"),
+                       .confining_pressure = pressure},
                       s.reals("sweep.dip").empty() ? "sweep.aspect_ratio" : "sweep.dip");
         }
       }
@@ -128,8 +143,15 @@ std::vector<Variant> variants_of(const Scenario& s) {
   }
   for (std::size_t i = 0; i < s.count("extra"); ++i) {
     const auto key = [i](const char* name) { return fmt::format("extra[{}].{}", i, name); };
-    add_repeats({s.real(key("aspect_ratio")), s.real("texture.dip"), s.real(key("seed_scale")), s.text(key("growth")),
-                 s.text("texture.only_mineral"), s.real("compression.confining_pressure"), 1, i},
+    add_repeats({.aspect_ratio = s.real(key("aspect_ratio")),
+                 .dip = s.real("texture.dip"),
+                 .seed_scale = s.real(key("seed_scale")),
+                 .growth = s.text(key("growth")),
+                 .between = s.text(key("between")),
+                 .only_mineral = s.text("texture.only_mineral"),
+                 .pressure_ratio = s.real(key("pressure_ratio")),
+                 .confining_pressure = s.real("compression.confining_pressure"),
+                 .extra = i},
                 key("aspect_ratio"));
   }
   return variants;

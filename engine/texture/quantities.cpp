@@ -18,6 +18,7 @@ std::span<const Quantity> quantities() {
                                        crack_damage,
                                        crack_damage_strain,
                                        inter_grain_share,
+                                       realised_ar,
                                        coordination,
                                        porosity,
                                        mineral_share,
@@ -48,7 +49,8 @@ std::span<const Quantity> quantities() {
 
 std::span<const Parameter> parameters() {
   using namespace parameter;
-  static constexpr std::array declared{aspect_ratio, dip, seed_scale, growth, mineral, confining_pressure, seed};
+  static constexpr std::array declared{aspect_ratio,   dip,     seed_scale,         growth, between,
+                                       pressure_ratio, mineral, confining_pressure, seed};
   return declared;
 }
 

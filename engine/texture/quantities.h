@@ -97,6 +97,13 @@ inline constexpr Quantity inter_grain_share{
     .factor = 100,
     .scatter = 0.006,
     .meaning = "Contacts between particles of different grains over all contacts."};
+inline constexpr Quantity realised_ar{
+    .id = "realised_aspect_ratio",
+    .name = "Aspect ratio of the grown grains",
+    .scatter = 0.01,
+    .meaning =
+        "Root of the second moments of all grains along the nominal long axis, over those across it: growth rounds "
+        "off the ellipsoids."};
 inline constexpr Quantity coordination{.id = "coordination",
                                        .name = "Coordination number",
                                        .scatter = 0.0015,
@@ -261,6 +268,15 @@ inline constexpr Parameter seed_scale{.id = "seed_scale",
                                       .key = "texture.seed_scale"};
 inline constexpr Parameter growth{
     .id = "growth", .name = "Rule of growth", .symbol = "growth", .key = "texture.growth"};
+inline constexpr Parameter between{.id = "between",
+                                   .name = "Coefficients act between",
+                                   .symbol = "coefficients between",
+                                   .key = "interaction.between"};
+inline constexpr Parameter pressure_ratio{.id = "pressure_ratio",
+                                          .name = "Packing pressure over modulus",
+                                          .symbol = "packing pressure",
+                                          .in_ids = "pressure_ratio",
+                                          .key = "packing.pressure_ratio"};
 inline constexpr Parameter mineral{.id = "mineral", .name = "Mineral", .key = "texture.only_mineral"};
 inline constexpr Parameter confining_pressure{.id = "confining_pressure",
                                               .name = "Confining pressure σ₃",

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "engine/texture/genesis/axes.h"
 #include "engine/texture/genesis/packing.h"
 #include "engine/texture/loading/characteristics.h"
 #include "engine/texture/quantities.h"
@@ -47,17 +48,25 @@ Table particle_table(const Specimen& specimen, const Settings& settings) {
   return t;
 }
 
+/// Unit vector along the long axes of the ellipsoids.
+Vec3 long_axis(const GrainShape& shape) {
+  return {std::cos(shape.dip) * std::cos(shape.dip_direction), std::cos(shape.dip) * std::sin(shape.dip_direction),
+          std::sin(shape.dip)};
+}
+
 Table grain_table(const Specimen& specimen, const Settings& settings) {
   const std::size_t n = specimen.seeds.position.size();
   std::vector<std::int32_t> count(n, 0);
   for (const std::int32_t g : specimen.grains.grain) ++count[static_cast<std::size_t>(g)];
   const double lambda = std::cbrt(settings.shape.aspect_ratio);
-  const double dip = settings.shape.dip, azimuth = settings.shape.dip_direction;
-  std::vector<double> axis, semi_long, semi_short;
+  std::vector<double> axis, semi_long, semi_short, own_axis, own_long, own_short;
+  for (const OwnAxes& own : own_axes(specimen.packing, specimen.grains, n)) {
+    own_axis.insert(own_axis.end(), own.axis.begin(), own.axis.end());
+    own_long.push_back(own.semi_long);
+    own_short.push_back(0.5 * (own.semi_middle + own.semi_short));
+  }
   for (std::size_t g = 0; g < n; ++g) {
-    for (const double v : {std::cos(dip) * std::cos(azimuth), std::cos(dip) * std::sin(azimuth), std::sin(dip)}) {
-      axis.push_back(v);
-    }
+    for (const double v : long_axis(settings.shape)) axis.push_back(v);
     semi_long.push_back(lambda * lambda * specimen.seeds.radius[g]);
     semi_short.push_back(specimen.seeds.radius[g] / lambda);
   }
@@ -69,6 +78,9 @@ Table grain_table(const Specimen& specimen, const Settings& settings) {
   t.add("particles", "", std::move(count));
   t.add("semi_long", "m", std::move(semi_long));
   t.add("semi_short", "m", std::move(semi_short));
+  t.add("own_axis", "1", std::move(own_axis), 3);  // of the grown grain, from its second moments
+  t.add("own_long", "m", std::move(own_long));
+  t.add("own_short", "m", std::move(own_short));
   return t;
 }
 
@@ -225,6 +237,10 @@ void add_specimen_results(Record& record, const Specimen& specimen, const Settin
   }
   const auto contacts = static_cast<double>(specimen.bonds.size());
   if (!settings.one_mineral) record.put(inter_grain_share, boundaries / contacts);
+  if (!settings.one_mineral) {
+    record.put(realised_ar, realised_aspect_ratio(specimen.packing, specimen.grains, specimen.seeds.radius.size(),
+                                                  long_axis(settings.shape)));
+  }
   record.put(quantity::coordination, specimen.packing.coordination);
   record.put(quantity::porosity, specimen.packing.porosity);
   std::vector<double> volume(settings.minerals.size(), 0);

@@ -61,6 +61,8 @@ std::span<const Figure> figures() {
        texture::input_parameters},
       {"texture_by_seed", "Texture by aspect ratio and seed", "Zhao et al. 2021, section 5 and Eq. 14", "grain_texture",
        texture::texture_by_seed},
+      {"readings", "What the open readings of the paper do", "Zhao et al. 2021, sections 2.3, 2.4 and 3.3",
+       "grain_texture", texture::open_readings},
       {"energy_compression", "Where the energy went: compression", "", "grain_texture", texture::energy_compression},
       {"energy_tension", "Where the energy went: direct tension", "", "grain_texture", texture::energy_tension},
       {"quartzite_block", "The block and its springs", "Liu et al. 2017, Fig. 1", "lattice", lattice::block},

@@ -35,6 +35,7 @@ FigureContent ellipsoid_turns(const StudyResult& study);
 FigureContent test_setups(const StudyResult& study);
 FigureContent input_parameters(const StudyResult& study);
 FigureContent texture_by_seed(const StudyResult& study);
+FigureContent open_readings(const StudyResult& study);
 
 }  // namespace reports::texture
 

@@ -121,7 +121,8 @@ TEST_CASE("wrong usage and wrong input exit with 2, say what would be right, and
       {{scenario, scenario}, "another scenario of the same name"},
       {{scenario, "--set", "sweep.aspect_ratio=[]"}, "the list is empty"},
       // Several scenarios: which of them refuses.
-      {{scenario, minerals, "--scale", "smoke", "--set", "extra[0].growth=\"most_contacts\""},
+      {{minerals, scenario, "--scale", "smoke", "--set", "sweep.mineral=[\"quartz\"]", "--set",
+        "extra[0].growth=\"most_contacts\""},
        minerals + ": --set: extra[0].growth: no such entry"},
       {{scenario, minerals, "--scale", "smoke", "--only", "dip_clusters2"}, scenario + ": --only: there is no figure"},
       {{"figures.toml"}, "figures.toml:2:1: figures: there is no figure 'x'"},

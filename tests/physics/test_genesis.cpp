@@ -11,6 +11,7 @@
 #include <set>
 #include <thread>
 
+#include "engine/texture/genesis/axes.h"
 #include "engine/texture/genesis/packing.h"
 #include "tests/support/granite.h"
 #include "tests/support/near.h"
@@ -299,6 +300,44 @@ TEST_CASE("a particle between grains follows the rule of growth") {
   const GrainSeeds seeds{{{0.9e-3, 0, 0}, {-0.5e-3, 0.5e-3, 0}}, {0.2e-3, 0.705e-3}, {0, 0}};
   CHECK(grow_grains(packing, seeds, {}).grain == std::vector<std::int32_t>{1, 0, 1, 1});
   CHECK(grow_grains(packing, seeds, {}, GrowthRule::deepest_contact).grain == std::vector<std::int32_t>{0, 0, 1, 1});
+}
+
+TEST_CASE("the shape of grown grains is that of their second moments") {
+  // Two ellipsoids of 3 : 1 : 1 along (1, 1, 0), filled with a grid of small spheres.
+  Packing packing;
+  GrainMap map;
+  const double step = 0.05, across = 1, longest = 3, half = std::sqrt(0.5);
+  for (const double shift : {0.0, 10.0}) {
+    for (double x = -longest; x <= longest; x += step) {
+      for (double y = -longest; y <= longest; y += step) {
+        for (double z = -across; z <= across; z += step) {
+          const double along = half * (x + y), beside = half * (x - y);
+          if (std::pow(along / longest, 2) + (beside * beside + z * z) / (across * across) > 1) continue;
+          packing.position.push_back({x + shift, y, z});
+          packing.radius.push_back(step / 2);
+          map.grain.push_back(shift > 0 ? 1 : 0);
+        }
+      }
+    }
+  }
+  packing.position.push_back({0, 0, 20});  // a grain of one particle has that particle's shape
+  packing.radius.push_back(0.7);
+  map.grain.push_back(2);
+  const std::vector<OwnAxes> own = own_axes(packing, map, 4);
+  for (const std::size_t g : {0, 1}) {
+    CHECK(own[g].semi_long == doctest::Approx(longest).epsilon(0.01));
+    CHECK(own[g].semi_middle == doctest::Approx(across).epsilon(0.01));
+    CHECK(own[g].semi_short == doctest::Approx(across).epsilon(0.01));
+    CHECK(std::abs(own[g].axis[0] * half + own[g].axis[1] * half) == doctest::Approx(1).epsilon(1e-4));
+  }
+  CHECK(own[2].semi_long == doctest::Approx(0.7));
+  CHECK(own[2].semi_short == doctest::Approx(0.7));
+  CHECK(own[3].semi_long == 0);
+  packing.position.pop_back();
+  packing.radius.pop_back();
+  map.grain.pop_back();
+  CHECK(realised_aspect_ratio(packing, map, 2, {half, half, 0}) == doctest::Approx(3).epsilon(0.01));
+  CHECK(realised_aspect_ratio(packing, map, 2, {half, -half, 0}) < 1);
 }
 
 TEST_CASE("every particle has a grain: by mask when an ellipsoid holds it, else by contact") {

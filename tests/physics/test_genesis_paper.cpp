@@ -6,6 +6,16 @@
 using namespace dem;
 using namespace dem::texture;
 
+namespace {
+
+double inter_grain_share(const Packing& packing, const GrainMap& map) {
+  double inter = 0;
+  for (const auto& [i, j] : packing.contacts) inter += map.grain[i] != map.grain[j] ? 1 : 0;
+  return inter / static_cast<double>(packing.contacts.size());
+}
+
+}  // namespace
+
 TEST_CASE("the published specimen has the published number of particles") {
   RunContext context;
   context.threads = 2;
@@ -21,13 +31,19 @@ TEST_CASE("the published specimen has the published number of particles") {
     double before = 0;
     for (const double aspect_ratio : {1.0, 2.0, 3.0}) {
       const GrainMap map = grow_grains(packing, seeds, {aspect_ratio, 0, 0}, rule);
-      double inter = 0;
-      for (const auto& [i, j] : packing.contacts) inter += map.grain[i] != map.grain[j] ? 1 : 0;
-      const double share = inter / static_cast<double>(packing.contacts.size());
+      const double share = inter_grain_share(packing, map);
       MESSAGE("rule " << static_cast<int>(rule) << ", aspect ratio " << aspect_ratio << ", inter-grain share "
                       << share);
       CHECK(share > before);  // Eq. 14: the more elongated, the more surface
       before = share;
     }
+  }
+  // Figs. 13 and 16 show grain 3770. The rule of growth was chosen by the share at AR 1; that at AR 3 follows.
+  const GrainSeeds small = seed_grains({25e-3, 50e-3}, dem_test::granite_minerals(), 0.669, 1, context);
+  CHECK(small.radius.size() >= 3770);
+  CHECK(small.radius.size() < 3800);
+  for (const auto& [aspect_ratio, published] : {std::pair{1.0, 0.55}, std::pair{3.0, 0.60}}) {
+    const GrainMap map = grow_grains(packing, small, {aspect_ratio, 0, 0}, GrowthRule::deepest_contact);
+    CHECK(std::abs(inter_grain_share(packing, map) - published) < 0.02);
   }
 }

@@ -151,6 +151,9 @@ dem::Table grains_table(const Body& body, double aspect_ratio) {
   table.add("particles", "", number);
   table.add("semi_long", "m", semi_long);
   table.add("semi_short", "m", semi_short);
+  table.add("own_axis", "1", axis, 3);
+  table.add("own_long", "m", semi_long);
+  table.add("own_short", "m", semi_short);
   return table;
 }
 
@@ -359,7 +362,9 @@ dem::Record start(const std::string& test, double aspect_ratio, const Body& body
   record.physics_version = "test";
   record.seed = 1;
   record.quantities = dem::texture::quantities();
-  record.parameters = {{"test", test}, {"aspect_ratio", aspect_ratio}, {"dip", 0.0}, {"seed_scale", 1.0}};
+  record.parameters = {{"test", test},          {"aspect_ratio", aspect_ratio}, {"dip", 0.0},
+                       {"seed_scale", 0.669},   {"growth", "deepest_contact"},  {"between", "minerals"},
+                       {"pressure_ratio", 0.01}};
   record.tables = {particles_table(body, options, aspect_ratio), grains_table(body, aspect_ratio),
                    contacts_table(body)};
   return record;

@@ -40,9 +40,16 @@ struct Made {
                    const std::string& mineral, double seed) {
     dem::Record record = pattern();
     record.case_id = id;
-    record.parameters = {
-        {"test", test}, {"aspect_ratio", 1.0}, {"dip", dip}, {"mineral", mineral}, {"confining_pressure", pressure},
-        {"seed", seed}};
+    record.parameters = {{"test", test},
+                         {"aspect_ratio", 1.0},
+                         {"dip", dip},
+                         {"mineral", mineral},
+                         {"confining_pressure", pressure},
+                         {"seed", seed},
+                         {"seed_scale", 0.669},
+                         {"growth", "deepest_contact"},
+                         {"between", "minerals"},
+                         {"pressure_ratio", 0.01}};
     std::erase_if(record.results, [](const auto& r) {
       return r.first == "compressive_strength" || r.first == "crack_damage" ||
              r.first == "crack_initiation.axial_stiffness";

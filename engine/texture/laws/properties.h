@@ -41,12 +41,17 @@ struct ContactGroup {
 /// with the sum of both parts all four come out within about 5 %.
 enum class JointModulus { sum, linear };
 
+/// Where the coefficients of the interaction act. "According to the kinds of minerals (S), the total number of contact
+/// groups is S(S+1)/2" (section 2.4): S of one mineral and S(S-1)/2 of two. So grains of one mineral meet in a group that
+/// has their mineral's own values.
+enum class Attenuated { unlike_minerals, all_boundaries };
+
 /// Inside a grain: the mineral's values, for the flat joint.
 ContactGroup inside(const Mineral& mineral, JointModulus modulus);
 
 /// Between grains: Eqs. 7 and 8, for the parallel bond. Moduli by harmonic mean, stiffness ratios weighted by the modulus
 /// of the other side, friction the minimum times alpha_mu (Table 4 has it, Eq. 7 leaves it out), strengths by arithmetic
-/// mean; each times its attenuation coefficient.
+/// mean; each times its attenuation coefficient. For one mineral without coefficients: that mineral's own values.
 ContactGroup between(const Mineral& a, const Mineral& b, const Interaction& alpha);
 
 }  // namespace dem::texture

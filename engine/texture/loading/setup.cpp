@@ -6,19 +6,28 @@
 
 namespace dem::texture {
 
+namespace {
+
+/// Coefficients for contacts of two minerals, by their places in the list.
+Interaction coefficients(std::size_t one, std::size_t two, const Settings& settings) {
+  const bool own_values = one == two && settings.attenuated == Attenuated::unlike_minerals;
+  return own_values ? Interaction{} : settings.interaction;
+}
+
+}  // namespace
+
 std::vector<BondSpec> group_contacts(const Packing& packing, const GrainMap& grains, const Settings& settings) {
   std::vector<BondSpec> bonds;
   bonds.reserve(packing.contacts.size());
   for (const auto& [i, j] : packing.contacts) {
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-    const Mineral& one = settings.minerals[static_cast<std::size_t>(grains.mineral[a])];
-    const Mineral& two = settings.minerals[static_cast<std::size_t>(grains.mineral[b])];
+    const auto m = static_cast<std::size_t>(grains.mineral[a]), n = static_cast<std::size_t>(grains.mineral[b]);
+    const Mineral &one = settings.minerals[m], &two = settings.minerals[n];
     BondSpec spec;
     spec.first = i;
     spec.second = j;
-    const bool same_mineral = grains.mineral[a] == grains.mineral[b];
-    spec.boundary = grains.grain[a] != grains.grain[b] && (!same_mineral || settings.same_mineral_boundaries);
-    spec.group = spec.boundary ? between(one, two, settings.interaction) : inside(one, settings.joint_modulus);
+    spec.boundary = grains.grain[a] != grains.grain[b] && (m != n || settings.same_mineral_boundaries);
+    spec.group = spec.boundary ? between(one, two, coefficients(m, n, settings)) : inside(one, settings.joint_modulus);
     bonds.push_back(spec);
   }
   return bonds;
@@ -75,9 +84,11 @@ AssemblyInput assembly_input(const Specimen& specimen, const Settings& settings)
     input.density.push_back(settings.minerals[static_cast<std::size_t>(m)].density);
   }
   input.bonds = specimen.bonds;
-  for (const Mineral& one : settings.minerals) {
+  for (std::size_t m = 0; m < settings.minerals.size(); ++m) {
+    const Mineral& one = settings.minerals[m];
     input.fresh.emplace_back();
-    for (const Mineral& two : settings.minerals) input.fresh.back().push_back(between(one, two, settings.interaction));
+    for (std::size_t n = 0; n < settings.minerals.size(); ++n)
+      input.fresh.back().push_back(between(one, settings.minerals[n], coefficients(m, n, settings)));
     input.wall_modulus.push_back(one.modulus);
   }
   input.damping = settings.damping;

@@ -15,8 +15,9 @@ struct Settings {
   PackingSettings packing;
   std::vector<Mineral> minerals;
   Interaction interaction;
+  Attenuated attenuated = Attenuated::unlike_minerals;
   GrainShape shape;
-  GrowthRule growth = GrowthRule::most_contacts;
+  GrowthRule growth = GrowthRule::deepest_contact;
   double seed_scale = 1;
   JointModulus joint_modulus = JointModulus::sum;
   bool same_mineral_boundaries = true;  ///< grains of one mineral meet in parallel bonds too

@@ -111,8 +111,8 @@ std::vector<Group> groups_of(const StudyResult& study) {
     const dem::Record& r = *one.record;
     std::string label = "AR " + shortest(r.number("aspect_ratio"));
     if (r.number("dip") != 0) label += ", dip " + shortest(r.number("dip")) + "°";
-    if (r.number("seed_scale") != 1) label += ", seeds × " + shortest(r.number("seed_scale"));
-    if (r.text("growth") != "most_contacts") label += ", growth by " + words(r.text("growth"));
+    const std::string reading = reading_of(r, study);
+    if (!reading.empty()) label += ", " + reading;
     const auto found = std::ranges::find(groups, label, &Group::label);
     if (found == groups.end())
       groups.push_back({label, {&r}});

@@ -282,4 +282,18 @@ std::vector<LegendEntry> mineral_legend(const dem::Record& record) {
   return legend;
 }
 
+std::string reading_of(const dem::Record& record, const StudyResult& study) {
+  const dem::Scenario& s = *study.scenario;
+  std::vector<std::string> readings;
+  if (const double scale = record.number("seed_scale"); scale != s.real("texture.seed_scale"))
+    readings.push_back("seeds × " + shortest(scale));
+  if (const std::string growth = record.text("growth"); growth != s.text("texture.growth"))
+    readings.push_back("growth by " + words(growth));
+  if (const std::string between = record.text("between"); between != s.text("interaction.between"))
+    readings.push_back("coefficients between " + (between == "grains" ? std::string("all grains") : "unlike minerals"));
+  if (const double pressure = record.number("pressure_ratio"); pressure != s.real("packing.pressure_ratio"))
+    readings.push_back("packing pressure " + shortest(pressure));
+  return joined(readings, ", ");
+}
+
 }  // namespace reports::texture

@@ -64,6 +64,9 @@ Picture section_cracks(const dem::Record& record, std::size_t count, const std::
 /// "1 204 inter tension, 12 inter shear, ..."
 std::string crack_words(const std::array<std::size_t, 4>& numbers);
 
+/// What a case reads otherwise than its scenario does: "seeds × 1, growth by most contacts"; "" for nothing.
+std::string reading_of(const dem::Record& record, const StudyResult& study);
+
 std::vector<LegendEntry> mineral_legend(const dem::Record& record);
 
 }  // namespace reports::texture

@@ -14,6 +14,8 @@ namespace {
 struct Grain {
   render::Point centre{}, axis{};
   double seed_radius = 0, semi_long = 0, semi_short = 0;
+  render::Point own_axis{};  // of the grown grain, from its second moments
+  double own_long = 0, own_short = 0;
   std::int32_t particles = 0, mineral = 0;
 };
 
@@ -24,6 +26,7 @@ std::vector<Grain> grains_of(const dem::Record& record) {
   const auto radius = table.real("radius");
   const auto semi_long = table.real("semi_long");
   const auto semi_short = table.real("semi_short");
+  const auto own_axis = table.real("own_axis"), own_long = table.real("own_long"), own_short = table.real("own_short");
   const auto particles = table.integer("particles");
   const auto mineral = table.integer("mineral");
   std::vector<Grain> grains(radius.size());
@@ -33,6 +36,9 @@ std::vector<Grain> grains_of(const dem::Record& record) {
                  radius[i],
                  semi_long[i],
                  semi_short[i],
+                 {own_axis[3 * i], own_axis[3 * i + 1], own_axis[3 * i + 2]},
+                 own_long[i],
+                 own_short[i],
                  particles[i],
                  mineral[i]};
   }
@@ -108,6 +114,13 @@ Picture cluster_picture(const SeriesCase& item, std::size_t index, double reach,
   const render::Colour other_colour = dips ? render::Colour{0.35, 0.35, 0.35} : render::Colour{0.66, 0.46, 0.0};
   scene.lines.push_back(
       {{along(front, other, -length), along(front, other, length)}, other_colour, 3.5, render::Line::dash});
+  // What growth made of the ellipsoid: the own axis of the spheres, as seen from here.
+  const render::Colour own_colour{0, 0, 0};
+  scene.lines.push_back(
+      {{along(front, grain.own_axis, -beyond * grain.own_long), along(front, grain.own_axis, beyond * grain.own_long)},
+       own_colour,
+       2.0,
+       render::Line::solid});
   scene.camera.direction = view;
   scene.camera.frame = {{{grain.centre[0] - reach, grain.centre[1] - reach, grain.centre[2] - 0.75 * reach},
                          {grain.centre[0] + reach, grain.centre[1] + reach, grain.centre[2] + 0.75 * reach}}};
@@ -115,7 +128,9 @@ Picture cluster_picture(const SeriesCase& item, std::size_t index, double reach,
   scene.height = 480;
   return {.scene = std::move(scene),
           .label = fmt::format("{} ({} particles)", item.label, grain.particles),
-          .legend = {{{0.75, 0.05, 0.05}, "long axis"}, {other_colour, dips ? "horizontal" : "short axis"}}};
+          .legend = {{{0.75, 0.05, 0.05}, "long axis of the ellipsoid"},
+                     {other_colour, dips ? "horizontal" : "short axis of the ellipsoid"},
+                     {own_colour, "long axis of the grown grain"}}};
 }
 
 std::string mineral_shares(const dem::Record& record) {
@@ -188,15 +203,20 @@ FigureContent grain_cluster(const StudyResult& study) {
     counts.push_back(fmt::format("{} at {}", grain.particles, item.label));
     content.panels.push_back(
         {.id = item.id,
-         .caption = fmt::format("Grain {}, {}; half axes {:.2f} and {:.2f} mm.", *index, mineral, 1e3 * grain.semi_long,
-                                1e3 * grain.semi_short),
+         .caption = fmt::format(
+             "Grain {}, {}; half axes of its ellipsoid {:.2f} and {:.2f} mm, of the grown grain {:.2f} and {:.2f} mm.",
+             *index, mineral, 1e3 * grain.semi_long, 1e3 * grain.semi_short, 1e3 * grain.own_long,
+             1e3 * grain.own_short),
          .alt = fmt::format(
              "Cluster of {} spheres of grain {} ({}) with its long axis of {:.2f} mm and short axis of {:.2f} mm.",
              grain.particles, *index, mineral, 2e3 * grain.semi_long, 2e3 * grain.semi_short),
          .content = cluster_picture(item, *index, reach, swept_axis(study).id == "dip"),
          .per_row = 3});
   }
-  content.finding = fmt::format("Grain {} has {} particles.", *index, listed(counts));
+  content.finding = fmt::format(
+      "Grain {} has {} particles. Growth rounds the ellipsoids off: by second moments the aspect ratio of all grains "
+      "is {}.",
+      *index, listed(counts), by_case(cases, quantity::realised_ar, 3));
   return content;
 }
 
