@@ -66,8 +66,10 @@ try_packages() {
   [ -n "$missing" ] || return 0
   say "installing Debian packages (once): $missing"
   # shellcheck disable=SC2086 # the list is meant to be split
-  DEBIAN_FRONTEND=noninteractive apt-get -q -y -o Acquire::Retries=3 install --no-install-recommends $missing \
-    >"$build/cluster-packages.log" 2>&1 </dev/null || say "they could not be installed; test_slurm is skipped"
+  {
+    apt-get -q -o Acquire::Retries=3 update &&
+      DEBIAN_FRONTEND=noninteractive apt-get -q -y -o Acquire::Retries=3 install --no-install-recommends $missing
+  } >"$build/cluster-packages.log" 2>&1 </dev/null || say "they could not be installed; test_slurm is skipped"
 }
 
 # configure OPTION...: makes or refreshes the build folder

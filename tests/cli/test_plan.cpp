@@ -193,3 +193,35 @@ TEST_CASE("bad lines, missing plans and scenarios that changed since: exit code 
   std::ofstream(folder / "out/manifest.jsonl") << "nonsense\n";
   CHECK(has(run_case(folder.path(), {"1"}).err, "out/manifest.jsonl:1: this is no line of a manifest"));
 }
+
+TEST_CASE("--executor: options that do not go together, and a machine without Slurm, before anything is written") {
+  const test::Scratch folder;
+  struct Bad {
+    Texts arguments;
+    std::string said;
+  };
+  const std::vector<Bad> all = {
+      {{"--detach"}, "--detach: belongs to a cluster; add --executor slurm, or leave it out"},
+      {{"--partition", "long"}, "--partition: belongs to a cluster"},
+      {{"--cases-per-job", "2"}, "--cases-per-job: belongs to a cluster"},
+      {{"--executor", "slrum"}, "did you mean 'slurm'?"},
+      {{"--executor", "slurm", "--force"}, "--force: does not go with --executor slurm"},
+      {{"--executor", "slurm", "--report-only"}, "--report-only: does not go with --executor slurm"},
+      {{"--executor", "slurm", "--time-limit", "4h"}, "--time-limit: '4h' is no time limit; write minutes (90)"},
+      {{"--executor", "slurm", "--sbatch", "--comment='x"}, "--sbatch: the quote ' is not closed"},
+  };
+  for (const Bad& bad : all) {
+    Texts arguments = {scenario, "--scale", "smoke", "--format", "html"};
+    arguments.insert(arguments.end(), bad.arguments.begin(), bad.arguments.end());
+    const test::Outcome outcome = test::run_program(folder.path(), arguments);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(has(outcome.err, bad.said));
+  }
+  const test::Outcome none = test::run_shell(folder.path(), "PATH=/nowhere; exec \"$PROGRAM\" '" + scenario +
+                                                                "' --scale smoke --format html --executor slurm");
+  CAPTURE(none.err);
+  CHECK(none.code == 3);
+  CHECK(has(none.err, "there is no Slurm here (scontrol is not found)"));
+  CHECK(fs::is_empty(folder.path()));
+}
