@@ -40,7 +40,8 @@ std::vector<Option> executor_options() {
            .value = "OPTIONS",
            .help = "slurm: more options for sbatch: --sbatch '--account=rock --qos=long'",
            .kind = OptionKind::text,
-           .repeatable = true},
+           .repeatable = true,
+           .dashes = true},
           {.name = "detach", .help = "slurm: leave when the jobs are submitted; the same command goes on"}};
 }
 

@@ -24,6 +24,7 @@ struct Option {
   OptionKind kind = OptionKind::flag;
   std::string standard = {};              ///< the value when it is not given, as it would be written; "": none
   bool repeatable = false;                ///< all values count; of other options the last one does
+  bool dashes = false;                    ///< its value may begin with --, as options of another program do
   std::vector<std::string> choices = {};  ///< for text and list: the allowed words; empty: any
   std::uint64_t low = 0;                  ///< for numbers, inclusive
   std::uint64_t high = std::numeric_limits<std::uint64_t>::max();

@@ -66,7 +66,7 @@ void check_options(const Chosen& chosen, const Texts& words) {
     }
     const bool inside = equals != std::string::npos || (!is_long && word.size() > 2);
     if (inside) continue;
-    if (i + 1 >= words.size() || words[i + 1].starts_with("--")) {
+    if (i + 1 >= words.size() || (words[i + 1].starts_with("--") && !option->dashes)) {
       refuse(word, "the value is missing", chosen.see_help());
     }
     ++i;
