@@ -9,6 +9,8 @@ weasyprint fonts-dejavu-core"
 test_packages="doctest-dev tidy poppler-utils clang-format python3-jsonschema"
 # For test_slurm, which is skipped where these cannot be had.
 cluster_packages="slurmctld slurmd slurm-client munge"
+# Commands that look at pages in a browser, with their packages. Tests that need them are skipped without them.
+browser_packages="chromium:chromium node:nodejs npm:npm"
 build="$root/build"
 lock="$root/.build.lock" # beside the build folder, which may have to be removed under it
 jobs=$(nproc 2>/dev/null || echo 2)
@@ -70,6 +72,14 @@ try_packages() {
     apt-get -q -o Acquire::Retries=3 update &&
       DEBIAN_FRONTEND=noninteractive apt-get -q -y -o Acquire::Retries=3 install --no-install-recommends $missing
   } >"$build/cluster-packages.log" 2>&1 </dev/null || say "they could not be installed; test_slurm is skipped"
+}
+
+# install_if_possible "COMMAND:PACKAGE ...": those whose command is missing; a word where that fails, and no end
+install_if_possible() {
+  wanted=
+  for one in $1; do command -v "${one%%:*}" >/dev/null 2>&1 || wanted="$wanted ${one##*:}"; done
+  [ -n "$wanted" ] || return 0
+  (install_packages "$wanted") || say "going on without$wanted"
 }
 
 # configure OPTION...: makes or refreshes the build folder

@@ -9,13 +9,21 @@
 
 namespace reports {
 
+/// How a report is made again, without paths of this machine: from the program's folder.
+struct Again {
+  std::string command;               ///< one line: "./dem-report scenarios/ldb_texture.toml --scale smoke"
+  bool scenario_is_shipped = false;  ///< it lies in the program's folder; else it must be saved there first
+  bool rock_is_shipped = false;      ///< the same of the file that it includes
+  std::string needs;                 ///< a file that must lie there as well (an Elle file); "": none
+};
+
 struct ReportOptions {
-  std::filesystem::path folder;  ///< out/NAME.SCALE; made when missing
+  std::filesystem::path folder;  ///< out/NAME.SCALE or a folder in it; made when missing
   std::filesystem::path assets;  ///< the folder with page template, style sheet, published numbers, choices, citations
   bool html = true;              ///< write report.html
   bool pdf = true;               ///< write report.pdf (needs weasyprint)
   std::string only;              ///< draw only this figure; "": all that belong to the scenario
-  std::string command;           ///< how to make it again, one line without paths of this machine: shown in the report
+  Again again;                   ///< how to make it again: shown in the report
   std::string engine_version;    ///< "0.1.0"
   int workers = 1;               ///< processes to draw in; the same bytes with any number
   double pdf_seconds = 900;      ///< WeasyPrint is ended after so long

@@ -416,6 +416,20 @@ void make_specimens(const Study& study, const StudyOptions& options, const Study
   study.model->make_specimens(spec, context);
 }
 
+void check_records(const Study& study, const StudyOptions& options) {
+  const fs::path folder = options.output / study.folder();
+  std::string first;  // why the first of them has none
+  for (const CaseSpec& spec : study.cases) {
+    if (!options.only_case.empty() && spec.id != options.only_case) continue;
+    const OnDisk found = look_up(spec, case_folder(options.output, study, spec.id) / "results.h5", *study.model);
+    if (found.current || read_failure(case_folder(options.output, study, spec.id), spec)) return;
+    if (first.empty()) first = spec.id + ": " + found.why;
+  }
+  throw InputError(Location{study.scenario.file(), 0, 0}, "--report-only",
+                   "there is no record to draw from in " + folder.string() + " (" + first + ")",
+                   "run it once without --report-only");
+}
+
 std::vector<CaseOutcome> run_study(const Study& study, const StudyOptions& options, const StudyListener& listener) {
   check_case(study, options.only_case);
   return Runner(study, options, listener).run();

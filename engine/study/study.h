@@ -77,6 +77,10 @@ struct StudyListener {
   std::function<void(const std::string&)> note = [](const std::string&) {};
 };
 
+/// Throws InputError when no case that was asked for has a current record, or failed as it is now: there is nothing to
+/// report then.
+void check_records(const Study& study, const StudyOptions& options);
+
 /// The outcomes in report order; cases begin in that order, and end as they end. Throws Interrupted when stopped (the
 /// cases at hand have left their checkpoints), InputError as check_case(), EnvironmentError when a file cannot be
 /// written (the other cases at hand are stopped).

@@ -52,7 +52,7 @@ bool all_well(const std::vector<dem::CaseOutcome>& outcomes) {
 }  // namespace
 
 bool Reporter::report(const dem::Study& study, const std::vector<dem::CaseOutcome>& outcomes,
-                      const std::string& command) {
+                      const reports::Again& again) {
   reports::StudyResult result{.scenario = &study.scenario,
                               .cases = {},
                               .quantities = study.model->quantities(),
@@ -63,12 +63,12 @@ bool Reporter::report(const dem::Study& study, const std::vector<dem::CaseOutcom
         {outcome.id, study.cases[i].parameters, outcome.record ? &*outcome.record : nullptr, outcome.error});
   }
   reports::ReportOptions report;
-  report.folder = options_.output / study.folder();
+  report.folder = options_.output / study.folder() / options_.part;
   report.assets = options_.assets;
   report.html = options_.html;
   report.pdf = options_.pdf;
   report.only = options_.figure;
-  report.command = command;
+  report.again = again;
   report.engine_version = DEM_VERSION;
   report.workers = options_.threads;
   report.pdf_seconds = options_.pdf_seconds;

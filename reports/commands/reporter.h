@@ -8,6 +8,7 @@
 
 #include "engine/study/study.h"
 #include "render/draw.h"
+#include "reports/options.h"
 
 namespace cli {
 
@@ -17,6 +18,7 @@ struct ReporterOptions {
   bool html = true;
   bool pdf = true;
   std::string figure;                       ///< draw only this one; "": all
+  std::string part;                         ///< folder below that of the study; "": that of the study
   int threads = 1;                          ///< processes to draw in
   bool quiet = false;                       ///< do not name the files on stdout
   bool strict = false;                      ///< a published number that is missed is not well
@@ -30,8 +32,8 @@ class Reporter {
   explicit Reporter(ReporterOptions options) : options_(std::move(options)) {}
 
   /// True when every case that was asked for has a record, and every check holds; else stderr says what does not.
-  /// `command` is how to make the report again. Throws dem::EnvironmentError as reports::make_report().
-  bool report(const dem::Study& study, const std::vector<dem::CaseOutcome>& outcomes, const std::string& command);
+  /// `again` is how to make the report again. Throws dem::EnvironmentError as reports::make_report().
+  bool report(const dem::Study& study, const std::vector<dem::CaseOutcome>& outcomes, const reports::Again& again);
 
  private:
   ReporterOptions options_;

@@ -7,6 +7,7 @@
 #include "engine/core/errors.h"
 #include "engine/core/instruction_set.h"
 #include "engine/study/study.h"
+#include "reports/commands/again.h"
 #include "reports/commands/assets.h"
 #include "reports/commands/executor.h"
 #include "reports/commands/machine.h"
@@ -29,6 +30,7 @@ ReporterOptions reporter_options(const RunRequest& request) {
   options.html = request.html;
   options.pdf = request.pdf;
   options.figure = request.figure;
+  options.part = part_folder(request);
   options.threads = request.threads;
   options.quiet = request.quiet;
   options.strict = request.strict;
@@ -54,7 +56,13 @@ std::string stopped_text(const dem::Interrupted& interrupted, const std::string&
   return text + ": give the same command to go on\n";
 }
 
-int perform(const Arguments& arguments) { return run(run_request(arguments)); }
+int perform(const Arguments& arguments) {
+  const RunRequest request = run_request(arguments);
+  if (request.report_only) {
+    for (const dem::Study& study : checked_studies(request)) dem::check_records(study, study_options(request));
+  }
+  return run(request);
+}
 
 std::vector<Option> options() {
   std::vector<Option> all = {output_option(), scale_option(), threads_option(),
@@ -105,6 +113,7 @@ int run(const RunRequest& request) {
   if (request.pdf) reports::check_printing();
   (void)dem::instruction_sets();  // a wrong DEM_SIMD is found before anything runs
   Reporter reporter(reporter_options(request));
+  const std::filesystem::path shipped = shipped_scenarios(assets_folder());
   listen_to_signals();
   dem::ProgressPrinter progress = progress_printer(request.quiet);
   bool well = true;
@@ -116,7 +125,7 @@ int run(const RunRequest& request) {
     for (const dem::Study& study : studies) {
       const auto outcomes = (*outcomes_of)(study);
       progress.say("drawing the figures and the report");
-      well = reporter.report(study, outcomes, command_text(request, study.scenario.file())) && well;
+      well = reporter.report(study, outcomes, how_again(request, study.scenario, shipped)) && well;
     }
   } catch (const dem::Interrupted& interrupted) {
     progress.clear();
@@ -128,7 +137,10 @@ int run(const RunRequest& request) {
 
 std::vector<Option> report_options() {
   return {
-      {.name = "only", .value = "FIGURE", .help = "draw only this figure", .kind = OptionKind::text},
+      {.name = "only",
+       .value = "FIGURE",
+       .help = "draw only this figure, into the folder only.FIGURE of the report",
+       .kind = OptionKind::text},
       {.name = "format",
        .value = "LIST",
        .help = "what to make",
@@ -183,15 +195,11 @@ RunRequest run_request(const Arguments& arguments) {
   return request;
 }
 
-std::string command_text(const RunRequest& request, const std::string& scenario) {
-  const std::filesystem::path path(scenario);
-  const bool of_this_machine = path.is_absolute() || path.lexically_normal().string().starts_with("..");
-  std::string text = "dem-report " + shell_quoted((of_this_machine ? path.filename() : path).string());
-  if (request.scale != "draft") text += " --scale " + request.scale;
-  for (const std::string& override : request.overrides) text += " --set " + shell_quoted(override);
-  if (!request.figure.empty()) text += " --only " + shell_quoted(request.figure);
-  if (!request.only_case.empty()) text += " --case " + shell_quoted(request.only_case);
-  return text;
+std::string part_folder(const RunRequest& request) {
+  std::string name;
+  if (!request.only_case.empty()) name = "case." + request.only_case;
+  if (!request.figure.empty()) name += (name.empty() ? "only." : ".only.") + request.figure;
+  return name;
 }
 
 Command verbs::run() {

@@ -52,7 +52,8 @@ std::vector<dem::Study> checked_studies(const RunRequest& request);
 int run(const RunRequest& request);
 std::vector<ExitCode> run_exit_codes();
 
-/// How to make a report again: the options that shape it, without folders of this machine.
-std::string command_text(const RunRequest& request, const std::string& scenario);
+/// The folder below that of the study for a report of one figure or one case ("only.FIGURE", "case.ID", "case.ID.only.FIGURE"),
+/// so that the full one stays; "" for the full one.
+std::string part_folder(const RunRequest& request);
 
 }  // namespace cli

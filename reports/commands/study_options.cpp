@@ -64,7 +64,12 @@ Option seed_option() {
           .high = std::uint64_t{1} << 53};
 }
 
-Option case_option() { return {.name = "case", .value = "ID", .help = "run only this case", .kind = OptionKind::text}; }
+Option case_option() {
+  return {.name = "case",
+          .value = "ID",
+          .help = "run only this case; its report goes into the folder case.ID",
+          .kind = OptionKind::text};
+}
 
 Option set_option() {
   return {.name = "set",

@@ -52,7 +52,12 @@ constexpr std::string_view pictures = "figures/", tables = "data/";
 // The files of a panel, the one to show first.
 std::vector<std::string> files_of(const Panel& panel, const std::string& name) {
   const std::string picture = std::string(pictures) + name, table = std::string(tables) + name + ".csv";
-  if (std::holds_alternative<render::Chart>(panel.content)) return {picture + ".svg", picture + ".png", table};
+  if (const auto* chart = std::get_if<render::Chart>(&panel.content)) {
+    std::vector<std::string> files{picture + ".svg", picture + ".png"};
+    for (const CsvTable& one : csv_tables(*chart))
+      files.push_back(std::string(tables) + name + (one.suffix.empty() ? "" : "_" + one.suffix) + ".csv");
+    return files;
+  }
   if (std::holds_alternative<Picture>(panel.content)) return {picture + ".png"};
   if (std::holds_alternative<TextTable>(panel.content)) return {table};
   return {picture + ".svg"};
@@ -93,7 +98,8 @@ render::SceneResult draw(const Job& job, const std::filesystem::path& folder, co
   render::SceneResult result;
   if (const auto* chart = std::get_if<render::Chart>(&job.panel->content)) {
     canvas().draw(sampled(*chart, points_in_a_picture).chart, files[1], files[0], job.facts);
-    dem::write_file(files[2], csv(*chart));
+    const std::vector<CsvTable> data = csv_tables(*chart);
+    for (std::size_t i = 0; i < data.size(); ++i) dem::write_file(files[i + 2], data[i].text());
   } else if (const auto* picture = std::get_if<Picture>(&job.panel->content)) {
     result = canvas().draw(picture->scene, files[0], job.facts);
   } else if (const auto* table = std::get_if<TextTable>(&job.panel->content)) {
@@ -160,6 +166,18 @@ FigureContent content_of(const StudyResult& study, const Figure& figure, DrawnFi
     drawn.problem = std::string("This figure could not be drawn: ") + missing.what() + ".";
     return {};
   }
+}
+
+/// The values of a scenario but those that name a file: what the file holds counts, not how its path was typed.
+std::string without_paths(const std::string& canonical) {
+  std::string kept;
+  for (std::size_t from = 0; from < canonical.size();) {
+    const std::size_t end = std::min(canonical.find('\n', from), canonical.size() - 1) + 1;
+    const std::string_view line(&canonical[from], end - from);
+    if (!line.starts_with("include = ") && !line.starts_with("grains.file = ")) kept += line;
+    from = end;
+  }
+  return kept;
 }
 
 Job job_of(const Figure& figure, const Panel& panel, const render::Provenance& study_facts) {
@@ -239,7 +257,7 @@ Drawings draw_figures(const StudyResult& study, const ChosenFigures& chosen, con
                       const CanvasSource& canvas) {
   const render::Provenance facts{{"Scenario", study.scenario->name()},
                                  {"Scale", study.scenario->scale()},
-                                 {"Scenario hash", dem::sha256(study.scenario->canonical())},
+                                 {"Scenario hash", dem::sha256(without_paths(study.scenario->canonical()))},
                                  {"Engine", options.engine_version}};
   dem::make_folder(options.folder / "figures");
   dem::make_folder(options.folder / "data");

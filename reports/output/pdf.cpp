@@ -117,15 +117,6 @@ std::string errors_in(const std::string& log) {
 
 }  // namespace
 
-std::string without_file_links(std::string html) {
-  for (const std::string_view target : {" href=\"figures/", " href=\"data/"}) {
-    for (std::size_t at = html.find(target); at != std::string::npos; at = html.find(target, at)) {
-      html.erase(at, html.find('"', at + target.size()) + 1 - at);
-    }
-  }
-  return html;
-}
-
 std::string harmless(std::string text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto byte = static_cast<unsigned char>(text[i]);
@@ -179,7 +170,7 @@ void print_pdf(const std::string& html, const std::filesystem::path& print_style
   dem::write_aside(pdf, [&](const std::filesystem::path& aside) {
     const Temporary source(aside.string() + ".html");
     const Temporary log(aside.string() + ".log");
-    dem::write_file(source.path(), without_file_links(html));
+    dem::write_file(source.path(), html);
     const auto whole = [](const std::filesystem::path& path) { return std::filesystem::absolute(path).string(); };
     const ChildEnd end =
         run_child({.path = find_weasyprint(),

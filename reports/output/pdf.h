@@ -13,8 +13,7 @@ struct PrintLimits {
 };
 
 /// Prints `html` with the style sheet `print_style` for paged media to `pdf`, written aside, looked at and renamed.
-/// Pictures may be named relative to the PDF's folder. Links to files beside the page are left out of the PDF: they would
-/// name the folder of this machine. SOURCE_DATE_EPOCH is set to a fixed value when it is not set, so that bytes repeat.
+/// Pictures may be named relative to the PDF's folder. SOURCE_DATE_EPOCH is set to a fixed value when it is not set, so that bytes repeat.
 /// Throws dem::EnvironmentError when weasyprint is missing, fails, logs an error, takes too long or leaves something that
 /// is no whole PDF; dem::Interrupted when asked to stop.
 void print_pdf(const std::string& html, const std::filesystem::path& print_style, const std::filesystem::path& pdf,
@@ -29,8 +28,4 @@ std::string fault_of_pdf(std::string_view bytes);
 
 /// `text` for a terminal: control characters are blanks.
 std::string harmless(std::string text);
-
-/// `html` without the targets of links to figures/ and data/.
-std::string without_file_links(std::string html);
-
 }  // namespace reports

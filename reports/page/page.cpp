@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <nlohmann/json.hpp>
 
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
+#include "reports/page/citations.h"
+#include "reports/page/downloads.h"
 #include "reports/page/page_parts.h"
 #include "reports/published/papers.h"
+#include "reports/text.h"
 
 namespace reports {
 namespace {
@@ -35,13 +39,6 @@ PageData list_of(const Json& items) {
   return list;
 }
 
-std::string command(const StudyResult& study, const ReportOptions& options) {
-  if (!options.command.empty()) return options.command;
-  const dem::Scenario& scenario = *study.scenario;
-  return "dem-report scenarios/" + scenario.name() + ".toml --scale " + scenario.scale() + " --seed " +
-         std::to_string(scenario.seed());
-}
-
 /// Words of a comment that no line holds are cut: to break one of 20,000 letters takes WeasyPrint minutes.
 std::string with_short_words(std::string_view text) {
   constexpr std::size_t most = 300;
@@ -59,6 +56,85 @@ std::string with_short_words(std::string_view text) {
   return shown;
 }
 
+Citation read_citation(const Json& declared) {
+  try {
+    return citation(declared);
+  } catch (const Json::exception& error) {
+    throw dem::EnvironmentError(std::string("an entry of citation.json or citations.json is broken: ") + error.what());
+  }
+}
+
+/// What goes into a string of a style sheet.
+std::string css_text(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || static_cast<unsigned char>(c) >= 0x80 ||
+                       std::string_view(" ._,-·").find(c) != std::string_view::npos;
+    escaped += plain ? std::string(1, c) : fmt::format("\\{:06x}", static_cast<unsigned char>(c));
+  }
+  return escaped;
+}
+
+void set_diagnostics(PageData& data, const StudyResult& study) {
+  const PageData checks = checks_data(study), ledger = ledger_data(study), inner = results_data(study, true);
+  const std::string summary = checks_summary(study);
+  data.set("checks_summary", summary.empty() ? "No case left a check." : summary);
+  data.set("checks_state", checks_held(study) ? "good" : "bad");
+  data.set("checks_broken", !checks_held(study));
+  data.set("has_checks", !checks.is_empty_list());
+  data.set("checks", checks);
+  data.set("has_ledger", !ledger.is_empty_list());
+  data.set("ledger", ledger);
+  data.set("has_inner", !inner.is_empty_list());
+  data.set("inner", inner);
+}
+
+void set_citations(PageData& data, const dem::Scenario& scenario, const ReportOptions& options) {
+  std::vector<Json> declared{asset(options.assets / "page" / "citation.json")};
+  for (const Paper& paper : papers_of(scenario.model(), options.assets / "papers")) {
+    for (const Json& one : asset(paper.folder / "citations.json")) declared.push_back(one);
+  }
+  PageData list{PageData::type::list};
+  std::string entries;
+  for (const Json& one : declared) {
+    Citation cited = read_citation(one);
+    if (cited.type == "software") cited.version = options.engine_version;
+    PageData item;
+    item.set("text", reference(cited));
+    item.set("has_doi", !cited.doi.empty());
+    item.set("doi", cited.doi);
+    item.set("for", cited.reason);
+    list.push_back(item);
+    entries += (entries.empty() ? "" : "\n") + bibtex(cited);
+  }
+  data.set("citations", list);
+  data.set("bibtex", entries);
+  data.set("bibtex_href", data_uri(entries, "x.bib"));
+}
+
+void set_again(PageData& data, const dem::Scenario& scenario, const Again& again) {
+  PageData sources{PageData::type::list};
+  std::vector<std::string> saved;
+  for (const auto& [file, shipped] :
+       {std::pair{scenario.file(), again.scenario_is_shipped}, std::pair{scenario.included(), again.rock_is_shipped}}) {
+    if (!std::filesystem::exists(file)) continue;
+    const std::string text = dem::read_file(file);
+    PageData source;
+    const std::string name = std::filesystem::path(file).filename().string();
+    source.set("name", name);
+    source.set("text", with_short_words(text));
+    source.set("href", data_uri(text, "x.toml"));
+    sources.push_back(source);
+    if (!shipped) saved.push_back(name);
+  }
+  data.set("sources", sources);
+  data.set("command", again.command);
+  data.set("has_saved", !saved.empty());
+  data.set("saved", listed(saved));
+  data.set("has_needs", !again.needs.empty());
+  data.set("needs", again.needs);
+}
+
 }  // namespace
 
 std::string page(const StudyResult& study, const Comparisons& comparisons, const std::vector<DrawnFigure>& figures,
@@ -68,32 +144,24 @@ std::string page(const StudyResult& study, const Comparisons& comparisons, const
   if (!pattern.is_valid()) {
     throw dem::EnvironmentError("the page template report.html is broken: " + pattern.error_message());
   }
-  Json choices = Json::array(), citations = Json::array();
+  Json choices = Json::array();
   for (const Paper& paper : papers_of(scenario.model(), options.assets / "papers")) {
     for (const Json& one : asset(paper.folder / "choices.json")) choices.push_back(one);
-    for (const Json& one : asset(paper.folder / "citations.json")) citations.push_back(one);
   }
   PageData data = title_data(study, options);
+  data.set("running",
+           css_text(scenario.name() + " · scale " + scenario.scale() + " · dem-report " + options.engine_version));
   data.set("style", dem::read_file(options.assets / "page" / "report.css"));
   data.set("cases", cases_data(study));
   data.set("findings", findings_data(study, comparisons, figures));
-  data.set("results", results_data(study));
+  data.set("results", results_data(study, false));
   data.set("published", comparisons_data(comparisons));
   data.set("figures", figures_data(figures, images == Images::embedded ? options.folder : std::filesystem::path()));
-  data.set("ledger", ledger_data(study));
-  data.set("checks", checks_data(study));
+  set_diagnostics(data, study);
   data.set("notes", notes_data(study));
   data.set("choices", list_of(choices));
-  data.set("citations", list_of(citations));
-  data.set("command", command(study, options));
-  if (std::filesystem::exists(scenario.file())) {
-    std::string text = dem::read_file(scenario.file());
-    if (!scenario.included().empty() && std::filesystem::exists(scenario.included())) {
-      const std::string name = std::filesystem::path(scenario.included()).filename().string();
-      text += "\n# Included: " + name + "\n" + dem::read_file(scenario.included());
-    }
-    data.set("scenario_text", with_short_words(text));
-  }
+  set_citations(data, scenario, options);
+  set_again(data, scenario, options.again);
   return pattern.render(data);
 }
 

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "engine/core/base64.h"
-#include "engine/core/files.h"
+#include "reports/page/downloads.h"
 #include "reports/page/page.h"
 #include "reports/page/page_parts.h"
 #include "reports/page/page_tables.h"
@@ -14,11 +13,6 @@
 
 namespace reports {
 namespace {
-
-std::string data_uri(const std::filesystem::path& file) {
-  const std::string type = file.extension() == ".svg" ? "image/svg+xml" : "image/png";
-  return "data:" + type + ";base64," + dem::base64(dem::read_file(file));
-}
 
 std::string colour_code(const render::Colour& colour) {
   const auto part = [](double value) { return static_cast<int>(std::lround(255 * std::clamp(value, 0.0, 1.0))); };
@@ -64,12 +58,39 @@ std::vector<LegendEntry> counts_of(std::vector<LegendEntry> legend) {
   return legend;
 }
 
-PageData panel_data(const DrawnPanel& panel, const std::filesystem::path& folder, const Shared& shared) {
+/// No picture is printed higher, mm: rows that high leave no page a third empty.
+constexpr double highest_picture = 74;
+
+/// A download of a panel. A picture that is on the page already is not there twice.
+struct Download {
+  std::string file, kind;
+};
+
+std::vector<Download> downloads_of(const DrawnPanel& panel, const std::filesystem::path& folder) {
+  constexpr std::uintmax_t largest = 1'000'000;  // browsers follow links of 2 MB, base64 makes it a third more
+  std::vector<Download> all;
+  std::string first;  // table of a chart; the others have longer names
+  for (const std::string& file : panel.files) {
+    const std::filesystem::path path(file);
+    const bool table = path.extension() == ".csv";
+    if (table && first.empty()) first = path.stem().string();
+    if (path.extension() == ".png" || std::filesystem::file_size(folder / path) > largest) continue;
+    const std::string part = table ? path.stem().string().substr(first.size()) : "";
+    all.push_back({file, table ? "CSV" + (part.empty() ? "" : " (" + words(part.substr(1)) + ")") : "SVG"});
+  }
+  return all;
+}
+
+/// `figure`: "Figure 5".
+PageData panel_data(const DrawnPanel& panel, const std::string& figure, const std::filesystem::path& folder,
+                    const Shared& shared) {
   PageData data;
+  const std::string whose = figure + panel.letter;
+  data.set("whose", whose);
   data.set("letter", panel.letter);
   data.set("has_letter", !panel.letter.empty());
   data.set("caption", shared.caption ? "" : panel.caption);
-  data.set("alt", panel.alt);
+  data.set("alt", whose + ": " + panel.alt);
   data.set("label", panel.label);
   data.set("has_label", !panel.label.empty());
   data.set("note", panel.note);
@@ -78,6 +99,9 @@ PageData panel_data(const DrawnPanel& panel, const std::filesystem::path& folder
   data.set("shape", panel.height > panel.width * 3 / 2 ? "tall" : "wide-shape");
   if (!panel.image.empty()) {
     data.set("image", folder.empty() ? panel.image : data_uri(folder / panel.image));
+    const bool scene = panel.image.ends_with(".png") && panel.height > 0;
+    data.set("has_print_width", scene);
+    data.set("print_width", fmt::format("{:.1f}", scene ? highest_picture * panel.width / panel.height : 0));
     data.set("has_size", panel.width > 0);
     data.set("width", std::to_string(panel.width));
     data.set("height", std::to_string(panel.height));
@@ -89,7 +113,7 @@ PageData panel_data(const DrawnPanel& panel, const std::filesystem::path& folder
   data.set("has_legend", !legend.empty());
   data.set("legend", legend_data(legend));
   data.set("has_table", !panel.table.head.empty());
-  data.set("table_head", cells(panel.table.head));
+  data.set("table_head", head_cells(panel.table.head));
   PageData rows = new_list();
   for (const auto& row : panel.table.rows) {
     if (row.empty()) continue;
@@ -97,14 +121,14 @@ PageData panel_data(const DrawnPanel& panel, const std::filesystem::path& folder
   }
   data.set("table_rows", rows);
   PageData files = new_list();
-  for (const std::string& file : panel.files) {
+  for (const Download& download : folder.empty() ? std::vector<Download>{} : downloads_of(panel, folder)) {
     PageData item;
-    item.set("file", file);
-    std::string kind = std::filesystem::path(file).extension().string().substr(1);
-    std::ranges::transform(kind, kind.begin(), [](char c) { return static_cast<char>(std::toupper(c)); });
-    item.set("kind", kind);
+    item.set("name", std::filesystem::path(download.file).filename().string());
+    item.set("href", data_uri(folder / download.file));
+    item.set("kind", download.kind);
     files.push_back(item);
   }
+  data.set("has_files", !files.is_empty_list());
   data.set("files", files);
   return data;
 }
@@ -125,25 +149,45 @@ std::vector<bool> row_starts(const std::vector<DrawnPanel>& panels) {
   return starts;
 }
 
-// Neighbours that go beside each other share a row.
-PageData rows_data(const std::vector<DrawnPanel>& panels, const std::filesystem::path& folder) {
-  PageData rows = new_list();
+/// Members of a row.
+struct Row {
+  std::size_t begin = 0, end = 0;
+};
+
+// Neighbours that go beside each other share rows as even as can be: no panel stands alone beside an empty half.
+std::vector<Row> rows_of(const std::vector<DrawnPanel>& panels) {
   const std::vector<bool> starts = row_starts(panels);
-  for (std::size_t i = 0; i < panels.size();) {
-    const int per_row = std::max(1, panels[i].per_row);
-    std::size_t end = i;
-    while (end < panels.size() && end - i < static_cast<std::size_t>(per_row) &&
-           std::max(1, panels[end].per_row) == per_row && !(end > i && starts[end]))
-      ++end;
-    const std::span<const DrawnPanel> members(&panels[i], end - i);
+  std::vector<Row> rows;
+  for (std::size_t begin = 0; begin < panels.size();) {
+    const int per_row = std::max(1, panels[begin].per_row);
+    std::size_t end = begin + 1;
+    while (end < panels.size() && std::max(1, panels[end].per_row) == per_row && !starts[end]) ++end;
+    const auto most = static_cast<std::size_t>(per_row);
+    const std::size_t count = (end - begin + most - 1) / most;
+    for (std::size_t left = count; left > 0; --left) {
+      const std::size_t share = most == 2 ? std::min(most, end - begin) : (end - begin + left - 1) / left;
+      rows.push_back({begin, begin + share});
+      begin += share;
+    }
+  }
+  return rows;
+}
+
+PageData rows_data(const DrawnFigure& figure, const std::filesystem::path& folder) {
+  const std::vector<DrawnPanel>& panels = figure.panels;
+  PageData rows = new_list();
+  for (const Row& each : rows_of(panels)) {
+    const std::span<const DrawnPanel> members(&panels[each.begin], each.end - each.begin);
+    const int per_row = std::max(1, members.front().per_row);
     const Shared shared = shared_by(members);
     PageData list = new_list();
-    for (const DrawnPanel& panel : members) list.push_back(panel_data(panel, folder, shared));
+    for (const DrawnPanel& panel : members)
+      list.push_back(panel_data(panel, fmt::format("Figure {}", figure.number), folder, shared));
     std::vector<LegendEntry> key = shared.legend ? members.front().legend : std::vector<LegendEntry>{};
     for (LegendEntry& entry : key) entry.count.clear();
     PageData row;
-    // Alone in its figure, half a page wide, it would stand at the side.
-    const bool alone = panels.size() == 1 && per_row == 2 && panels.front().table.head.empty();
+    // Alone and half a page wide: its caption stands beside it.
+    const bool alone = members.size() == 1 && per_row == 2 && members.front().table.head.empty();
     const bool whole = per_row == 1 && members.front().whole_width;
     row.set("per_row", alone ? "lone" : std::to_string(per_row) + (whole ? " whole" : ""));
     row.set("panels", list);
@@ -153,7 +197,6 @@ PageData rows_data(const std::vector<DrawnPanel>& panels, const std::filesystem:
     row.set("shared_caption", members.front().caption);
     row.set("shared_legend", legend_data(key));
     rows.push_back(row);
-    i = end;
   }
   return rows;
 }
@@ -164,6 +207,7 @@ PageData figures_data(const std::vector<DrawnFigure>& figures, const std::filesy
   PageData list = new_list();
   for (const DrawnFigure& figure : figures) {
     PageData data;
+    data.set("later", figure.number > 1);
     data.set("figure_id", std::string(figure.figure->id));
     data.set("figure_number", std::to_string(figure.number));
     data.set("figure_title", std::string(figure.figure->title));
@@ -175,7 +219,7 @@ PageData figures_data(const std::vector<DrawnFigure>& figures, const std::filesy
     data.set("has_finding", !figure.finding.empty());
     data.set("problem", figure.problem);
     data.set("has_problem", !figure.problem.empty());
-    data.set("panel_rows", rows_data(figure.panels, folder));
+    data.set("panel_rows", rows_data(figure, folder));
     list.push_back(data);
   }
   return list;

@@ -253,6 +253,33 @@ PageData cases_data(const StudyResult& study) {
   return list;
 }
 
+bool checks_held(const StudyResult& study) {
+  return std::ranges::all_of(study.cases, [](const CaseResult& result) {
+    return !result.record || std::ranges::all_of(result.record->checks, &dem::Check::held);
+  });
+}
+
+std::string checks_summary(const StudyResult& study) {
+  std::size_t checks = 0, broken_checks = 0;
+  std::vector<std::pair<std::string, std::vector<std::string>>> broken;  // by check
+  for (const CaseResult& result : study.cases) {
+    if (!result.record) continue;
+    for (const dem::Check& check : result.record->checks) {
+      ++checks;
+      if (check.held) continue;
+      ++broken_checks;
+      auto group = std::ranges::find(broken, check.id, [](const auto& g) { return g.first; });
+      if (group == broken.end()) group = broken.insert(broken.end(), {check.id, {}});
+      group->second.push_back(result.id);
+    }
+  }
+  if (checks == 0) return {};
+  if (broken.empty()) return fmt::format("All {} checks of the runs held.", checks);
+  std::vector<std::string> parts;
+  for (const auto& [check, cases] : broken) parts.push_back(words(check) + " (" + joined(cases, ", ") + ")");
+  return fmt::format("{} of {} checks did not hold: {}.", broken_checks, checks, joined(parts, "; "));
+}
+
 PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
                        const std::vector<DrawnFigure>& figures) {
   PageData list = new_list();
@@ -270,26 +297,8 @@ PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
   for (const CaseResult& result : study.cases) {
     if (!result.record && !result.error.empty()) add("Case " + result.id + " failed: " + result.error, "bad");
   }
-  std::size_t checks = 0;
-  std::size_t broken_checks = 0;
-  std::vector<std::pair<std::string, std::vector<std::string>>> broken;  // by check
-  for (const CaseResult& result : study.cases) {
-    if (!result.record) continue;
-    for (const dem::Check& check : result.record->checks) {
-      ++checks;
-      if (check.held) continue;
-      ++broken_checks;
-      auto group = std::ranges::find(broken, check.id, [](const auto& g) { return g.first; });
-      if (group == broken.end()) group = broken.insert(broken.end(), {check.id, {}});
-      group->second.push_back(result.id);
-    }
-  }
-  if (!broken.empty()) {
-    std::vector<std::string> parts;
-    for (const auto& [check, cases] : broken) parts.push_back(words(check) + " (" + joined(cases, ", ") + ")");
-    add(fmt::format("{} of {} checks did not hold: {}.", broken_checks, checks, joined(parts, "; ")), "bad");
-  } else if (checks > 0)
-    add(fmt::format("All {} checks of the runs held.", checks), "good");
+  if (const std::string summary = checks_summary(study); !summary.empty())
+    add(summary, checks_held(study) ? "good" : "bad");
   const auto number_of = [&](Verdict verdict) {
     return std::ranges::count(comparisons.rows, verdict, &Comparison::verdict);
   };
@@ -337,11 +346,13 @@ std::string result_text(const Repeats& column, std::string_view id, const dem::Q
 }
 
 // Of those that figures do not show: families have as many members as the specimen has groups.
-std::vector<std::string> results_of(const std::vector<const CaseResult*>& group, const StudyResult& study) {
+std::vector<std::string> results_of(const std::vector<const CaseResult*>& group, const StudyResult& study,
+                                    bool diagnostics) {
   std::vector<std::string> ids;
   for (const CaseResult* result : group) {
     for (const auto& [id, value] : result->record->results) {
-      if (dem::find_quantity(study.quantities, id).family()) continue;
+      const dem::Quantity& quantity = dem::find_quantity(study.quantities, id);
+      if (quantity.family() || (quantity.kind != dem::QuantityKind::result) != diagnostics) continue;
       if (std::ranges::find(ids, id) == ids.end()) ids.push_back(id);
     }
   }
@@ -350,13 +361,14 @@ std::vector<std::string> results_of(const std::vector<const CaseResult*>& group,
 
 }  // namespace
 
-PageData results_data(const StudyResult& study) {
+PageData results_data(const StudyResult& study, bool diagnostics) {
   PageData tables = new_list();
   for (const auto& [test, group] : by_test(study)) {
     const std::vector<Repeats> columns = analysis::repeats_of(group);
     const bool repeated = columns.size() < group.size();
     const std::size_t widest = repeated ? 4 : 8;  // columns that fit on a page
-    const std::vector<std::string> ids = results_of(group, study);
+    const std::vector<std::string> ids = results_of(group, study, diagnostics);
+    if (ids.empty()) continue;
     for (std::size_t from = 0; from < columns.size(); from += widest) {
       const std::span<const Repeats> shown(columns.data() + from, std::min(widest, columns.size() - from));
       std::vector<std::string> heads;

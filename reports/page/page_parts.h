@@ -18,12 +18,15 @@ PageData title_data(const StudyResult& study, const ReportOptions& options);  //
 PageData cases_data(const StudyResult& study);                                ///< what was run
 PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
                        const std::vector<DrawnFigure>& figures);  ///< what came out, in short
-PageData results_data(const StudyResult& study);                  ///< a table of results for each test
+/// A table of results for each test: of what the study is made for, or of counts and diagnostics.
+PageData results_data(const StudyResult& study, bool diagnostics);
 PageData comparisons_data(const Comparisons& comparisons);
-/// Pictures are read from `folder` and embedded; named when it is empty.
+/// Pictures and downloads are read from `folder` and embedded; pictures are named when it is empty.
 PageData figures_data(const std::vector<DrawnFigure>& figures, const std::filesystem::path& folder);
 PageData ledger_data(const StudyResult& study);
 PageData checks_data(const StudyResult& study);
+std::string checks_summary(const StudyResult& study);  ///< "All 12 checks of the runs held."
+bool checks_held(const StudyResult& study);
 PageData notes_data(const StudyResult& study);
 
 /// "AR 2", "AR 1, seed scale 0.675": the aspect ratio and what else sets a case apart from the first one of the study; the

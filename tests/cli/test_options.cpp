@@ -6,6 +6,8 @@
 
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
+#include "engine/study/study.h"
+#include "reports/commands/again.h"
 #include "reports/commands/help_text.h"
 #include "reports/commands/parse.h"
 #include "reports/commands/run.h"
@@ -134,13 +136,58 @@ TEST_CASE("wrong usage is told with what would be right") {
   says({"a.toml", "--output="}, "empty");
 }
 
-TEST_CASE("the command that makes a report again names no folder of this machine") {
-  const cli::RunRequest line = request({"/home/me/a b.toml", "-o", "/tmp/x", "--threads", "2", "--scale", "paper",
-                                        "--set", "specimen.diameter=\"10 mm\"", "--seed", "3", "--quiet"});
-  CHECK(cli::command_text(line, "/home/me/a b.toml") ==
-        "dem-report 'a b.toml' --scale paper --set 'specimen.diameter=\"10 mm\"' --set seed=3");
-  CHECK(cli::command_text(request({"scenarios/a.toml"}), "scenarios/a.toml") == "dem-report scenarios/a.toml");
-  CHECK(cli::command_text(request({"../a.toml"}), "../a.toml") == "dem-report a.toml");
+namespace {
+
+/// What makes the report of `file` again, by the words of a command line.
+reports::Again again(const std::string& file, Texts words = {}) {
+  words.insert(words.begin(), file);
+  const cli::RunRequest line = request(words);
+  const dem::Study study = dem::read_study(file, line.scale, line.overrides, dem::models());
+  return cli::how_again(line, study.scenario, DEM_SOURCE_DIR "/scenarios");
+}
+
+}  // namespace
+
+TEST_CASE("the command that makes a report again works in a clone and names no folder of this machine") {
+  const std::string shipped = DEM_SOURCE_DIR "/scenarios/ldb_minerals.toml";
+  const std::string rock = "scenarios/rocks/lac_du_bonnet.toml";
+  CHECK(again(shipped, {"-o", "/tmp/x", "--threads", "2", "--quiet"}).command ==
+        "./dem-report scenarios/ldb_minerals.toml");
+  CHECK(again(shipped, {"--scale", "smoke", "--set", "specimen.diameter=\"10 mm\"", "--seed", "3"}).command ==
+        "./dem-report scenarios/ldb_minerals.toml --scale smoke --set 'specimen.diameter=\"10 mm\"' --seed 3");
+  CHECK(again(shipped).scenario_is_shipped);
+  CHECK(again(shipped).rock_is_shipped);
+  // From any folder, and by a path that goes up and down.
+  CHECK(again(DEM_SOURCE_DIR "/tests/../scenarios/ldb_minerals.toml").command == again(shipped).command);
+
+  const test::Scratch folder;
+  std::filesystem::create_directories(folder / "deep/rocks");
+  const std::string copy = folder / "deep/ldb_minerals.toml";
+  dem::write_file(copy, dem::read_file(shipped));
+  dem::write_file(folder / "deep" / "rocks" / "lac_du_bonnet.toml", dem::read_file(DEM_SOURCE_DIR "/" + rock));
+  CHECK(again(copy).command == again(shipped).command);
+
+  // Another text: it has to be saved in the clone; its rock is the shipped one still.
+  dem::write_file(copy, dem::read_file(shipped) + "\n# mine\n");
+  const reports::Again own = again(copy, {"--case", "compression_quartz", "--only", "mineral_properties"});
+  CHECK(own.command == "./dem-report ldb_minerals.toml --set 'include=\"" + rock +
+                           "\"' --only mineral_properties --case compression_quartz");
+  CHECK_FALSE(own.scenario_is_shipped);
+  CHECK(own.rock_is_shipped);
+  // Given again, that command asks for the same.
+  CHECK(again(copy, {"--set", "include=\"" DEM_SOURCE_DIR "/" + rock + "\""}).command == again(copy).command);
+
+  dem::write_file(folder / "mine.toml", dem::read_file(DEM_SOURCE_DIR "/" + rock) + "# mine\n");
+  const reports::Again other = again(shipped, {"--set", "include=\"" + (folder / "mine.toml").string() + "\""});
+  CHECK(other.command == "./dem-report scenarios/ldb_minerals.toml --set 'include=\"mine.toml\"'");
+  CHECK_FALSE(other.rock_is_shipped);
+}
+
+TEST_CASE("a report of one figure or one case has a folder of its own") {
+  CHECK(cli::part_folder(request({"a.toml"})).empty());
+  CHECK(cli::part_folder(request({"a.toml", "--only", "x"})) == "only.x");
+  CHECK(cli::part_folder(request({"a.toml", "--case", "y"})) == "case.y");
+  CHECK(cli::part_folder(request({"a.toml", "--case", "y", "--only", "x"})) == "case.y.only.x");
 }
 
 TEST_CASE("verbs: run is the default one, each says what it takes") {

@@ -37,8 +37,9 @@ test::Outcome run(const fs::path& folder, const Texts& more = {}, const test::Wh
   return test::run_program(folder, arguments, meanwhile);
 }
 
-fs::path output(const fs::path& folder) { return folder / "out" / "ldb_aspect_ratio.smoke"; }
-fs::path record(const fs::path& folder) { return output(folder) / "cases" / id / "results.h5"; }
+fs::path study_folder(const fs::path& folder) { return folder / "out" / "ldb_aspect_ratio.smoke"; }
+fs::path output(const fs::path& folder) { return study_folder(folder) / ("case." + id + ".only.stress_strain"); }
+fs::path record(const fs::path& folder) { return study_folder(folder) / "cases" / id / "results.h5"; }
 
 /// The exit code that the checks of a study call for: 1 when one of them does not hold.
 int due_code_of(const fs::path& study) {
@@ -93,9 +94,10 @@ TEST_CASE("a run leaves what it promises, a second one keeps it, and both give t
     CHECK(fs::exists(out / name));
   }
   CHECK_FALSE(fs::exists(out / "report.pdf"));
-  CHECK_FALSE(fs::exists(out / "cases" / id / "checkpoint"));
-  CHECK(has(first.out, "out/ldb_aspect_ratio.smoke/report.html\n"));
-  CHECK(dem::read_file(record(folder.path())) == uncut_record());  // however many threads
+  CHECK_FALSE(fs::exists(record(folder.path()).parent_path() / "checkpoint"));
+  CHECK(has(first.out, "out/ldb_aspect_ratio.smoke/case." + id + ".only.stress_strain/report.html\n"));
+  CHECK_FALSE(fs::exists(study_folder(folder.path()) / "report.html"));  // that of the whole study stays
+  CHECK(dem::read_file(record(folder.path())) == uncut_record());        // however many threads
   const std::string page = dem::read_file(out / "report.html");
   const std::string summary = dem::read_file(out / "summary.json");
 
@@ -148,23 +150,23 @@ TEST_CASE("cases side by side: the same summary for any number of threads, and a
          "--format", "html", "--threads", threads},
         meanwhile);
   };
-  const fs::path study = fs::path("out") / "ldb_dip_angle.smoke";
+  const fs::path study = fs::path("out/ldb_dip_angle.smoke"), report = study / "only.stress_strain";
   std::string summary, page;
   for (const char* threads : {"1", "2", "3"}) {
     CAPTURE(threads);
     const test::Scratch folder;
     const test::Outcome outcome = run_two(folder.path(), threads);
     CAPTURE(outcome.err);
-    REQUIRE(outcome.code == due_code_of(folder.path() / study));
+    REQUIRE(outcome.code == due_code_of(folder.path() / report));
     CHECK(has(outcome.err, "direct_tension_ar_2_dip_0 (1/2): simulated"));
     CHECK(has(outcome.err, "direct_tension_ar_2_dip_90 (2/2): simulated"));
     CHECK(whole_files(folder.path() / "out" / "specimens") == 2);
     if (summary.empty()) {
-      summary = dem::read_file(folder.path() / study / "summary.json");
-      page = dem::read_file(folder.path() / study / "report.html");
+      summary = dem::read_file(folder.path() / report / "summary.json");
+      page = dem::read_file(folder.path() / report / "report.html");
     }
-    CHECK(dem::read_file(folder.path() / study / "summary.json") == summary);
-    CHECK(dem::read_file(folder.path() / study / "report.html") == page);
+    CHECK(dem::read_file(folder.path() / report / "summary.json") == summary);
+    CHECK(dem::read_file(folder.path() / report / "report.html") == page);
   }
 
   const test::Scratch folder;
@@ -178,10 +180,10 @@ TEST_CASE("cases side by side: the same summary for any number of threads, and a
     CHECK_FALSE(fs::exists(cases / one / "results.h5"));
   }
   const test::Outcome resumed = run_two(folder.path(), "2");
-  CHECK(resumed.code == due_code_of(folder.path() / study));
+  CHECK(resumed.code == due_code_of(folder.path() / report));
   CHECK(has(resumed.err, "direct_tension_ar_2_dip_0 (1/2): simulated, no record; goes on from its checkpoint"));
   CHECK(has(resumed.err, "direct_tension_ar_2_dip_90 (2/2): simulated, no record; goes on from its checkpoint"));
-  CHECK(dem::read_file(folder.path() / study / "summary.json") == summary);
+  CHECK(dem::read_file(folder.path() / report / "summary.json") == summary);
 }
 
 TEST_CASE("a run that is killed leaves nothing half-written, and the next one the same bytes") {
@@ -233,14 +235,59 @@ TEST_CASE("a damaged specimen is made again, and a note says so") {
   for (const auto& [path, bytes] : whole) CHECK(dem::read_file(path) == bytes);
 }
 
-TEST_CASE("records that are missing: the report is made, the exit code is 1") {
+TEST_CASE("--report-only without records is one line and exit code 2; with some of them a report is made") {
   const test::Scratch folder;
   const test::Outcome outcome = run(folder.path(), {"--report-only"});
   CAPTURE(outcome.err);
-  CHECK(outcome.code == 1);
-  CHECK(has(outcome.err, "case " + id + " failed: There is no record to draw from (no record)"));
-  CHECK(fs::exists(output(folder.path()) / "report.html"));
-  CHECK(has(dem::read_file(output(folder.path()) / "report.html"), "There is no record to draw from"));
+  CHECK(outcome.code == 2);
+  CHECK(outcome.out.empty());
+  CHECK(outcome.err == "dem-report: " + scenario +
+                           ": --report-only: there is no record to draw from in out/ldb_aspect_ratio.smoke (" + id +
+                           ": no record); run it once without --report-only\n");
+  CHECK(fs::is_empty(folder.path()));
+
+  const Texts texture = {DEM_SOURCE_DIR "/scenarios/ldb_texture.toml", "--scale", "smoke", "--format", "html"};
+  const auto with = [&](const Texts& more) {
+    Texts words = texture;
+    words.insert(words.end(), more.begin(), more.end());
+    return test::run_program(folder.path(), words);
+  };
+  REQUIRE(with({"--case", "genesis_ar_1", "--only", "genesis_contacts"}).code == 0);
+  const test::Outcome some = with({"--report-only", "--only", "genesis_contacts"});
+  CAPTURE(some.err);
+  CHECK(some.code == 1);
+  CHECK(has(some.err, "failed: There is no record to draw from (no record)"));
+  CHECK(has(dem::read_file(folder / "out/ldb_texture.smoke/only.genesis_contacts/report.html"),
+            "There is no record to draw from"));
+}
+
+TEST_CASE("the same scenario gives the same report from any folder, by any path, for any number of threads") {
+  const test::Scratch folder;
+  const fs::path home = folder.path() / "home", away = folder.path() / "far/away";
+  fs::create_directories(home / "rocks");
+  fs::create_directories(away);
+  for (const char* file : {"ldb_texture.toml", "rocks/lac_du_bonnet.toml"})
+    fs::copy(fs::path(DEM_SOURCE_DIR) / "scenarios" / file, home / file);
+  const Texts common = {"--scale", "smoke", "--case", "genesis_ar_1", "--only", "genesis_contacts"};
+  const auto made = [&](const fs::path& from, const Texts& words) {
+    Texts all = words;
+    all.insert(all.end(), common.begin(), common.end());
+    const test::Outcome outcome = test::run_program(from, all);
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const fs::path report = from / "out/ldb_texture.smoke/case.genesis_ar_1.only.genesis_contacts";
+    Texts bytes;
+    for (const char* name : {"report.html", "report.pdf", "summary.json"})
+      bytes.push_back(dem::read_file(report / name));
+    return bytes;
+  };
+  const Texts first = made(home, {"ldb_texture.toml", "--threads", "1"});
+  CHECK(has(first[0], "./dem-report scenarios/ldb_texture.toml"));
+  const Texts second = made(away, {(home / "ldb_texture.toml").string(), "--threads", "2"});
+  const Texts third = made(away, {"../../home/rocks/../ldb_texture.toml", "--threads", "1"});
+  for (const Texts& other : {second, third}) {
+    for (std::size_t i = 0; i < first.size(); ++i) CHECK((first[i] == other[i]));
+  }
 }
 
 TEST_CASE("output that cannot be written: exit code 3, the path is named") {
@@ -259,7 +306,7 @@ TEST_CASE("a specimen can be made and reported without being loaded") {
                                         "genesis_ar_1", "--only", "genesis_contacts", "--format", "html"});
   INFO(made.err);
   REQUIRE(made.code == 0);
-  const fs::path output = folder.path() / "out" / "ldb_texture.smoke";
+  const fs::path output = folder.path() / "out/ldb_texture.smoke/case.genesis_ar_1.only.genesis_contacts";
   CHECK(has(dem::read_file(output / "summary.json"), "genesis_ar_1.packing_pressure"));
   CHECK(fs::exists(output / "figures" / "genesis_contacts_laws.png"));
   CHECK(has(dem::read_file(output / "report.html"), "Contacts by group and by law"));
@@ -274,7 +321,7 @@ TEST_CASE("published numbers stand beside the rock that they belong to only") {
   const test::Outcome granite = test::run_program(folder.path(), paper);
   INFO(granite.err);
   REQUIRE(granite.code == 0);
-  const fs::path report = folder.path() / "out" / "ldb_texture.smoke" / "report.html";
+  const fs::path report = folder.path() / "out/ldb_texture.smoke/case.genesis_ar_1.only.input_parameters/report.html";
   CHECK(has(dem::read_file(report), "Targets of the calibration (Table 2)"));
   own.insert(own.end(), {"--set", "include=\"" DEM_SOURCE_DIR "/scenarios/rocks/my_rock.toml\""});
   const test::Outcome mine = test::run_program(folder.path(), own);

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Texts = std::vector<std::string>;
 
-const std::string scenario = DEM_SOURCE_DIR "/scenarios/ldb_aspect_ratio.toml";
+const std::string scenario = DEM_SOURCE_DIR "/scenarios/ldb_texture.toml";
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
@@ -36,14 +36,35 @@ class Variable {
   std::optional<std::string> before_;
 };
 
-/// A report without records: the page is made and printed, and the exit code is 1.
+/// The record of one case of the scenario, simulated once for all tests of this file.
+class Simulated : public test::Scratch {
+ public:
+  Simulated() {
+    const test::Outcome outcome = test::run_program(path(), {scenario, "--scale", "smoke", "--case", "genesis_ar_1",
+                                                             "--only", "input_parameters", "--format", "html"});
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+  }
+};
+
+/// A folder with that record.
+class Recorded : public test::Scratch {
+ public:
+  Recorded() {
+    static const Simulated simulated;
+    fs::copy(simulated / "out", *this / "out", fs::copy_options::recursive);
+  }
+};
+
+/// A report of one record: the page is made and printed, and the exit code is 1, for the other cases have none.
 test::Outcome report(const fs::path& folder, const Texts& more = {}, const test::WhileRunning& meanwhile = {}) {
   Texts words = {scenario, "--scale", "smoke", "--report-only", "--only", "input_parameters"};
   words.insert(words.end(), more.begin(), more.end());
   return test::run_program(folder, words, meanwhile);
 }
 
-fs::path output(const fs::path& folder) { return folder / "out" / "ldb_aspect_ratio.smoke"; }
+fs::path study(const fs::path& folder) { return folder / "out" / "ldb_texture.smoke"; }
+fs::path output(const fs::path& folder) { return study(folder) / "only.input_parameters"; }
 
 /// A weasyprint that does what `script` says, "$pdf" being the file that it should write; first in PATH.
 class FakeWeasyprint {
@@ -108,7 +129,7 @@ TEST_CASE("a PDF that is not whole, or a WeasyPrint that fails: exit code 3, its
       {"kill -KILL $$", {"signal 9 (Killed), as a machine does that is out of memory"}},
       {"echo 'UserWarning: No fonts configured in FontConfig.' >&2; kill -SEGV $$", {"found no font"}},
   };
-  const test::Scratch folder;
+  const Recorded folder;
   for (const Broken& broken : all) {
     CAPTURE(broken.script);
     const FakeWeasyprint fake(broken.script);
@@ -125,7 +146,7 @@ TEST_CASE("a PDF that is not whole, or a WeasyPrint that fails: exit code 3, its
 TEST_CASE("a WeasyPrint that hangs is ended with all that it started: after its time, and with the program") {
   const FakeWeasyprint fake(hangs);
   SUBCASE("after its time") {
-    const test::Scratch folder;
+    const Recorded folder;
     const test::Outcome outcome = report(folder.path(), {"--pdf-timeout", "1"});
     CHECK(outcome.code == 3);
     CHECK(has(outcome.err, "still printing after 1 s and was ended: allow more with --pdf-timeout"));
@@ -138,7 +159,7 @@ TEST_CASE("a WeasyPrint that hangs is ended with all that it started: after its 
         if (alone && signal == SIGINT) continue;  // shells ignore it for what runs behind
         CAPTURE(signal);
         CAPTURE(alone);
-        const test::Scratch folder;
+        const Recorded folder;
         std::chrono::steady_clock::time_point sent;
         const test::Outcome outcome = report(folder.path(), {}, [&](int process) {
           number_in(output(folder.path()) / "pid");
@@ -155,7 +176,7 @@ TEST_CASE("a WeasyPrint that hangs is ended with all that it started: after its 
     }
   }
   SUBCASE("when the program is killed; what it left is gone after the next run") {
-    const test::Scratch folder;
+    const Recorded folder;
     const test::Outcome outcome = report(folder.path(), {}, [&](int process) {
       number_in(output(folder.path()) / "pid");
       ::kill(process, SIGKILL);
@@ -173,12 +194,12 @@ TEST_CASE("drawing ends with 128 and the signal, whichever process gets it") {
     for (const bool alone : {false, true}) {
       CAPTURE(signal);
       CAPTURE(alone);
-      const test::Scratch folder;
+      const Recorded folder;
       std::chrono::steady_clock::time_point sent;
       const test::Outcome outcome = test::run_program(
           folder.path(), {scenario, "--scale", "smoke", "--report-only", "--format", "html", "--threads", "2"},
           [&](int process) {
-            test::wait_until([&] { return fs::exists(output(folder.path()) / "data"); }, 60);
+            test::wait_until([&] { return fs::exists(study(folder.path()) / "data"); }, 60);
             std::vector<int> workers;
             test::wait_until([&] { return !(workers = test::children_of(process)).empty(); }, 60);
             sent = std::chrono::steady_clock::now();
@@ -209,7 +230,7 @@ TEST_CASE("what the machine lacks is named before anything is simulated: exit co
     CAPTURE(lack.name);
     const test::Scratch folder;
     const Variable variable(lack.name, lack.value);
-    const test::Outcome outcome = report(folder.path());
+    const test::Outcome outcome = test::run_program(folder.path(), {scenario, "--scale", "smoke"});
     CAPTURE(outcome.err);
     CHECK(outcome.code == 3);
     CHECK(has(outcome.err, lack.said));
@@ -219,7 +240,7 @@ TEST_CASE("what the machine lacks is named before anything is simulated: exit co
 }
 
 TEST_CASE("fonts that fontconfig does not know are named, and an empty environment is enough") {
-  const test::Scratch folder;
+  const Recorded folder;
   std::ofstream(folder / "empty.conf") << "<?xml version=\"1.0\"?><!DOCTYPE fontconfig SYSTEM \"fonts.dtd\">"
                                           "<fontconfig></fontconfig>";
   {
@@ -237,17 +258,17 @@ TEST_CASE("fonts that fontconfig does not know are named, and an empty environme
 }
 
 TEST_CASE("a pipe that nobody reads changes nothing, a limit on the size of files is a full disk") {
-  const test::Scratch folder;
+  const Recorded folder;
   const std::string command = "\"$PROGRAM\" " + scenario +
                               " --scale smoke --report-only --only input_parameters "
                               "--format html";
   test::run_shell(folder.path(), "{ " + command + "; echo $? >code; } 2>&1 | true");
   CHECK(dem::read_file(folder / "code") == "1\n");
   CHECK(fs::exists(output(folder.path()) / "report.html"));
-  fs::remove_all(folder / "out");
-  const test::Outcome full = test::run_shell(folder.path(), "ulimit -f 8; " + command);
+  const Recorded other;
+  const test::Outcome full = test::run_shell(other.path(), "ulimit -f 8; " + command);
   CAPTURE(full.err);
   CHECK(full.code == 3);
   CHECK(has(full.err, "files may not grow larger here (ulimit -f)"));
-  CHECK(unfinished(folder.path()) == 0);
+  CHECK(unfinished(other.path()) == 0);
 }

@@ -9,10 +9,12 @@
 #include <regex>
 #include <set>
 
+#include "engine/core/base64.h"
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
 #include "reports/output/pdf.h"
 #include "reports/output/report.h"
+#include "reports/page/citations.h"
 #include "tests/reports/synthetic.h"
 #include "tests/support/scratch.h"
 
@@ -46,6 +48,7 @@ reports::ReportOptions options_for(const std::filesystem::path& folder) {
   options.folder = folder;
   options.assets = assets;
   options.engine_version = "0.1.0";
+  options.again.command = "./dem-report synthetic.toml --scale draft";
   return options;
 }
 
@@ -134,29 +137,74 @@ TEST_CASE("the page loads nothing from outside and needs no script") {
   CHECK(html.find("<html lang=\"en\">") != std::string::npos);
 }
 
-TEST_CASE("links within the page and to its files lead somewhere; every picture has a text") {
+TEST_CASE("links lead somewhere, downloads are inside the page, and no two links or pictures are told alike") {
   const std::string html = file("report.html");
-  std::size_t inner = 0, outer = 0, pictures = 0;
-  for (std::size_t at = html.find(" href=\""); at != std::string::npos; at = html.find(" href=\"", at + 1)) {
-    const std::string target = html.substr(at + 7, html.find('"', at + 7) - at - 7);
-    CAPTURE(target);
+  std::size_t inner = 0;
+  std::set<std::string> names, pictures;
+  for (std::size_t at = html.find("<a "); at != std::string::npos; at = html.find("<a ", at + 1)) {
+    const std::size_t from = html.find(" href=\"", at) + 7;
+    REQUIRE(from < html.find('>', at));
+    const std::string target = html.substr(from, html.find('"', from) - from);
+    CAPTURE(target.substr(0, 80));
     if (target.starts_with('#')) {
       ++inner;
       CHECK(html.find("id=\"" + target.substr(1) + "\"") != std::string::npos);
-    } else if (!target.starts_with("https://doi.org/")) {
-      ++outer;
-      CHECK(std::filesystem::exists(whole().folder / target));
+    } else if (target.starts_with("data:")) {
+      const std::size_t text = html.find('>', at) + 1;
+      const std::string name = html.substr(text, html.find("</a>", text) - text);
+      CHECK(html.compare(at, 13, "<a download=\"") == 0);
+      CHECK(names.insert(name).second);
+    } else {
+      CHECK(target.starts_with("https://doi.org/"));
     }
   }
   for (std::size_t at = html.find("<img "); at != std::string::npos; at = html.find("<img ", at + 1)) {
-    ++pictures;
-    const std::size_t alt = html.find(" alt=\"", at);
+    const std::size_t alt = html.find(" alt=\"", at) + 6;
     REQUIRE(alt < html.find('>', at));
-    CHECK(html[alt + 6] != '"');
+    const std::string text = html.substr(alt, html.find('"', alt) - alt);
+    CAPTURE(text);
+    CHECK(text.starts_with("Figure "));
+    CHECK(text.size() > 20);
+    CHECK(pictures.insert(text).second);
   }
   CHECK(inner > 20);
-  CHECK(outer > 40);
-  CHECK(pictures > 30);
+  CHECK(names.size() > 30);
+  CHECK(pictures.size() > 30);
+}
+
+TEST_CASE("a download holds the bytes of its file") {
+  const std::string html = file("report.html");
+  std::size_t tables = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(whole().folder / "data")) {
+    const std::string name = entry.path().filename().string();
+    CAPTURE(name);
+    const std::string link = "<a download=\"" + name + "\" href=\"data:text/csv;base64,";
+    const std::size_t at = html.find(link);
+    REQUIRE(at != std::string::npos);
+    const std::size_t from = at + link.size();
+    CHECK(html.substr(from, html.find('"', from) - from) == dem::base64(dem::read_file(entry.path())));
+    ++tables;
+  }
+  CHECK(tables > 5);
+}
+
+TEST_CASE("what to cite stands there as BibTeX too, that can be saved") {
+  const std::string html = file("report.html");
+  for (const char* text : {"@article{zhao2021,", "author = {Zhao, X. and Elsworth, D. and", "@misc{demreport,",
+                           "note = {Version 0.1.0}", "pages = {1329--1364}", ".bib\" href=\"data:"}) {
+    CAPTURE(text);
+    CHECK(html.find(text) != std::string::npos);
+  }
+  for (const auto& paper : std::filesystem::directory_iterator(assets / "papers")) {
+    for (const auto& one : nlohmann::json::parse(dem::read_file(paper.path() / "citations.json"))) {
+      const reports::Citation cited = reports::citation(one);
+      CAPTURE(cited.key);
+      CHECK(reports::reference(cited).ends_with("."));
+      const std::string entry = reports::bibtex(cited);
+      CHECK(std::ranges::count(entry, '{') == std::ranges::count(entry, '}'));
+      CHECK(entry.find(" & ") == std::string::npos);
+    }
+  }
 }
 
 TEST_CASE("the page names figures, sources, verdicts and residuals") {
@@ -172,8 +220,9 @@ TEST_CASE("the page names figures, sources, verdicts and residuals") {
 TEST_CASE("the PDF has text, embedded fonts, tags and a sane number of pages") {
   const std::string pdf = (whole().folder / "report.pdf").string();
   const Ran text = run("pdftotext '" + pdf + "' -");
-  for (const char* words : {"Published numbers beside ours", "Figure 1.", "Uniaxial compressive strength",
-                            "Energy ledger", "What to cite"}) {
+  for (const char* words :
+       {"Published numbers beside ours", "Figure 1.", "Uniaxial compressive strength", "Energy ledger", "What to cite",
+        "· scale draft · dem-report 0.1.0", "Page 1 of ", "Counts and diagnostics of each case"}) {
     CAPTURE(words);
     CHECK(text.output.find(words) != std::string::npos);
   }

@@ -45,9 +45,58 @@ TEST_CASE("CSV quotes what needs it and keeps every point") {
     chart.series[0].x.push_back(i);
     chart.series[0].y.push_back(0.5 * i);
   }
-  const std::string text = reports::csv(chart);
+  const auto tables = reports::csv_tables(chart);
+  REQUIRE(tables.size() == 1);
+  CHECK(tables[0].suffix.empty());
+  const std::string text = tables[0].text();
   CHECK(text.starts_with("series,Strain (%),Stress (MPa)\r\nAR 1,0,0\r\nAR 1,1,0.5\r\n"));
   CHECK(std::ranges::count(text, '\n') == 20001);
+}
+
+TEST_CASE("a chart has a CSV for each of its tables, one row of heads, and columns for what is published") {
+  render::Chart chart;
+  chart.x.title = "Aspect ratio";
+  chart.left.title = "Strength σ_{c} (MPa)";
+  chart.right.title = "Ratio";
+  chart.bars = render::Bars{.categories = {"AR 1", "AR 2"},
+                            .labels = {"UCS", "UCS, published"},
+                            .colours = {},
+                            .values = {{163, std::nan("")}, {-1.5e-7, 150}}};
+  chart.series = {
+      {.label = "ratio", .x = {1, 2}, .y = {20, 21}, .colour = {}, .side = render::Side::right, .y_error = {1, 2}},
+      {.label = "ratio, published", .x = {1}, .y = {19}, .colour = {}, .side = render::Side::right}};
+  chart.marks = {{.kind = render::Mark::Kind::horizontal, .y = 71.1, .label = "published"}};
+  render::Chart inner;
+  inner.series = {{.label = "s", .x = {1}, .y = {2}, .colour = {}}};
+  chart.insets = {{.chart = {inner}}};
+  const auto tables = reports::csv_tables(chart);
+  REQUIRE(tables.size() == 4);
+  CHECK(tables[0].text() == "Aspect ratio,UCS (MPa),\"UCS, published (MPa)\"\r\nAR 1,163,-1.5e-07\r\nAR 2,,150\r\n");
+  CHECK(tables[1].suffix == "curves");
+  CHECK(tables[1].text() ==
+        "series,Aspect ratio,Ratio,Published: Ratio,± of Ratio\r\n"
+        "ratio,1,20,,1\r\nratio,2,21,,2\r\n\"ratio, published\",1,,19,\r\n");
+  CHECK(tables[2].suffix == "marks");
+  CHECK(tables[2].text() == "mark,Aspect ratio,Strength σ_c (MPa),Ratio\r\npublished,,71.1,\r\n");
+  CHECK(tables[3].suffix == "inset");
+}
+
+TEST_CASE("a table of texts is numbers in its CSV, with units in the heads") {
+  const auto written = [](const reports::TextTable& table) { return reports::csv(table); };
+  CHECK(written({{"", "K_{n}", "m (95 % interval)", "TS (MPa)"},
+                 {{"a", "46.794 × 10⁶ N/m", "29.0 (−51.8 to 110)", "12.1 ± 0.5"},
+                  {"b", "8\u202f067\u202f902 N/m", "–", "13"}}}) ==
+        "quantity,K_n (N/m),m,\"m, low\",\"m, high\",TS (MPa),\"TS, standard deviation (MPa)\"\r\n"
+        "a,46.794e6,29.0,-51.8,110,12.1,0.5\r\nb,8067902,,,,13,\r\n");
+  CHECK(written({{"Cracks, tension / shear", "At the end"}, {{"within quartz", "6 / 0"}, {"", "1110 / 135"}}}) ==
+        "\"Cracks, tension / shear\",\"At the end, tension\",\"At the end, shear\"\r\n"
+        "within quartz,6,0\r\nwithin quartz,1110,135\r\n");
+  CHECK(
+      written(
+          {{"Parameter", "Value", "Value"},
+           {{"dip", "45°", "x"}, {"radius", "0.35 mm", "y"}, {"ratios", "1, 2, 3", "z"}, {"range", "9–13 mm", ""}}}) ==
+      "Parameter,\"Value, from\",\"Value, to\",\"Value, unit\",\"Value, in words\",Value\r\n"
+      "dip,45,,°,,x\r\nradius,0.35,,mm,,y\r\nratios,,,,\"1, 2, 3\",z\r\nrange,9,13,mm,,\r\n");
 }
 
 TEST_CASE("a sampled curve keeps its ends, its peak and its lowest point") {
@@ -82,12 +131,6 @@ TEST_CASE("scale bars are round and not too long") {
   }
   CHECK(reports::scale_bar({.metres_per_pixel = 25e-3 / 500, .width = 500}).text == "10 mm");
   CHECK(reports::scale_bar({.metres_per_pixel = 0, .width = 500}).percent == 0);
-}
-
-TEST_CASE("links to files are taken out") {
-  CHECK(reports::without_file_links(
-            R"(<a href="figures/a.png">PNG</a> <a href="data/a.csv">CSV</a> <a href="#x">x</a>)") ==
-        R"(<a>PNG</a> <a>CSV</a> <a href="#x">x</a>)");
 }
 
 TEST_CASE("the ledger takes every energy of a history in its role") {
