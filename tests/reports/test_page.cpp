@@ -117,9 +117,10 @@ TEST_CASE("summary.json is as its schema says") {
 }
 
 TEST_CASE("the page is valid HTML") {
-  const Ran tidy = run("tidy -quiet -errors -utf8 --show-info no '" + (whole().folder / "report.html").string() + "'");
+  // tidy is older than loading="lazy".
+  const Ran tidy = run("tidy -quiet -errors -utf8 --show-info no '" + (whole().folder / "report.html").string() +
+                       "' 2>&1 | grep -v '<img> proprietary attribute \"loading\"$'");
   CHECK(tidy.output == "");
-  CHECK(tidy.status == 0);
 }
 
 TEST_CASE("the page loads nothing from outside and needs no script") {

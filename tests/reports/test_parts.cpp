@@ -58,17 +58,30 @@ TEST_CASE("a chart has a CSV for each of its tables, one row of heads, and colum
   chart.x.title = "Aspect ratio";
   chart.left.title = "Strength σ_{c} (MPa)";
   chart.right.title = "Ratio";
-  chart.bars = render::Bars{.categories = {"AR 1", "AR 2"},
-                            .labels = {"UCS", "UCS, published"},
-                            .colours = {},
-                            .values = {{163, std::nan("")}, {-1.5e-7, 150}}};
-  chart.series = {
-      {.label = "ratio", .x = {1, 2}, .y = {20, 21}, .colour = {}, .side = render::Side::right, .y_error = {1, 2}},
-      {.label = "ratio, published", .x = {1}, .y = {19}, .colour = {}, .side = render::Side::right}};
-  chart.marks = {{.kind = render::Mark::Kind::horizontal, .y = 71.1, .label = "published"}};
+  chart.bars.emplace();
+  chart.bars->categories = {"AR 1", "AR 2"};
+  chart.bars->labels = {"UCS", "UCS, published"};
+  chart.bars->values = {{163, std::nan("")}, {-1.5e-7, 150}};
+  const auto series = [](const std::string& label, std::vector<double> x, std::vector<double> y) {
+    render::Series made;
+    made.label = label;
+    made.x = std::move(x);
+    made.y = std::move(y);
+    made.side = render::Side::right;
+    return made;
+  };
+  chart.series = {series("ratio", {1, 2}, {20, 21}), series("ratio, published", {1}, {19})};
+  chart.series[0].y_error = {1, 2};
+  render::Mark mark;
+  mark.kind = render::Mark::Kind::horizontal;
+  mark.y = 71.1;
+  mark.label = "published";
+  chart.marks = {mark};
   render::Chart inner;
-  inner.series = {{.label = "s", .x = {1}, .y = {2}, .colour = {}}};
-  chart.insets = {{.chart = {inner}}};
+  inner.series = {series("s", {1}, {2})};
+  render::Inset inset;
+  inset.chart = {inner};
+  chart.insets = {inset};
   const auto tables = reports::csv_tables(chart);
   REQUIRE(tables.size() == 4);
   CHECK(tables[0].text() == "Aspect ratio,UCS (MPa),\"UCS, published (MPa)\"\r\nAR 1,163,-1.5e-07\r\nAR 2,,150\r\n");
