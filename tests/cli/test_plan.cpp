@@ -100,7 +100,7 @@ TEST_CASE("the lines of a plan, run from the last to the first and twice, make t
   const test::Outcome report = collect(folder.path());
   CAPTURE(report.err);
   CHECK(report.code == local().code);
-  CHECK(has(report.out, "out/" + study + "/report.html\n"));
+  CHECK(has(report.out, "out/" + study + "/only.quartzite_strengths/report.html\n"));
   CHECK(stable_files(folder.path() / "out" / study) == local().files);
 
   const test::Outcome nothing = plan(folder.path());  // all are kept
@@ -159,8 +159,8 @@ TEST_CASE("names with blanks, quotes and $() pass through unharmed") {
       test::run_program("/", {"collect", out.string(), "--format", "html", "--only", "quartzite_strengths"});
   CAPTURE(report.err);
   CHECK(report.code == local().code);
-  CHECK(has(report.out, (out / "my (odd) study.smoke/report.html").string()));
-  CHECK(has(dem::read_file(out / "my (odd) study.smoke/report.html"), "$(touch HARM)"));
+  CHECK(has(report.out, (out / "my (odd) study.smoke/only.quartzite_strengths/report.html").string()));
+  CHECK(has(dem::read_file(out / "my (odd) study.smoke/only.quartzite_strengths/report.html"), "$(touch HARM)"));
   for (const auto& entry : fs::recursive_directory_iterator(folder.path())) CHECK(entry.path().filename() != "HARM");
   CHECK_FALSE(fs::exists("/HARM"));
 }
