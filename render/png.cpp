@@ -49,7 +49,7 @@ bool encode(const Image& image, png_textp texts, int text_count, png_bytepp rows
 
 }  // namespace
 
-void write_png(const Image& image, const fs::path& path, const Provenance& facts, Content content) {
+std::string png_bytes(const Image& image, const Provenance& facts, Content content) {
   Provenance copy = facts;  // libpng wants mutable text
   std::vector<png_text> texts;
   for (auto& [key, value] : copy) {
@@ -66,8 +66,12 @@ void write_png(const Image& image, const fs::path& path, const Provenance& facts
   std::string bytes;
   const int filters = content == Content::drawing ? PNG_FILTER_NONE : PNG_ALL_FILTERS;
   if (!encode(image, texts.data(), static_cast<int>(texts.size()), rows.data(), filters, &bytes))
-    throw dem::EnvironmentError("cannot pack " + path.filename().string() + " as PNG");
-  dem::write_file(path, bytes);
+    throw dem::EnvironmentError("cannot pack a picture as PNG");
+  return bytes;
+}
+
+void write_png(const Image& image, const fs::path& path, const Provenance& facts, Content content) {
+  dem::write_file(path, png_bytes(image, facts, content));
 }
 
 Image read_png(const fs::path& path) {

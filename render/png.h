@@ -15,6 +15,9 @@ enum class Content { photograph, drawing };  ///< shaded or flat colours: picks 
 /// Writes aside and renames. Throws dem::EnvironmentError.
 void write_png(const Image& image, const std::filesystem::path& path, const Provenance& facts, Content content);
 
+/// The bytes of such a file.
+std::string png_bytes(const Image& image, const Provenance& facts, Content content);
+
 /// Throws dem::EnvironmentError when the file is missing or no PNG.
 Image read_png(const std::filesystem::path& path);
 

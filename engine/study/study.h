@@ -14,6 +14,7 @@
 
 #include "engine/core/record.h"
 #include "engine/model/model.h"
+#include "engine/scenario/changes.h"
 #include "engine/scenario/scenario.h"
 
 namespace dem {
@@ -101,9 +102,5 @@ std::optional<std::string> failure_of(const std::filesystem::path& output, const
 /// Makes the specimens of the first case that are missing (Model::specimens), and simulates nothing. Throws as run_study(),
 /// and CaseError.
 void make_specimens(const Study& study, const StudyOptions& options, const StudyListener& listener);
-
-/// Why a record of content `before` does not serve `now`: the lines that differ, quantities in their declared unit:
-/// "mineral[2].cohesion: 292 MPa -> 300 MPa, seed: 1 -> 2". "" when they are the same.
-std::string changes(std::string_view before, std::string_view now, std::span<const Key> keys);
 
 }  // namespace dem

@@ -81,6 +81,13 @@ Option set_option() {
 
 Option quiet_option() { return {.name = "quiet", .help = "no progress, only errors"}; }
 
+Option reference_option() {
+  return {.name = "reference",
+          .value = "DIR",
+          .help = "folder of the references that were accepted",
+          .kind = OptionKind::folder};
+}
+
 int threads(const Arguments& arguments) {
   if (arguments.has("threads")) return static_cast<int>(arguments.number("threads"));
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));

@@ -12,13 +12,14 @@ namespace cli {
 
 Positional scenario_positional();  ///< SCENARIO..., one or more
 
-Option output_option();   ///< -o, --output DIR
-Option scale_option();    ///< --scale SCALE
-Option threads_option();  ///< --threads N
-Option seed_option();     ///< --seed N
-Option case_option();     ///< --case ID
-Option set_option();      ///< --set KEY=VALUE, repeatable
-Option quiet_option();    ///< --quiet
+Option output_option();     ///< -o, --output DIR
+Option scale_option();      ///< --scale SCALE
+Option threads_option();    ///< --threads N
+Option seed_option();       ///< --seed N
+Option case_option();       ///< --case ID
+Option set_option();        ///< --set KEY=VALUE, repeatable
+Option quiet_option();      ///< --quiet
+Option reference_option();  ///< --reference DIR, without a default
 
 /// --threads; the threads of the machine when it is not given.
 int threads(const Arguments& arguments);

@@ -1,9 +1,10 @@
-// Which part of a content key changed, in words.
+#include "engine/scenario/changes.h"
+
+#include <algorithm>
 #include <charconv>
 #include <map>
 
 #include "engine/scenario/units.h"
-#include "engine/study/study.h"
 
 namespace dem {
 namespace {
@@ -66,24 +67,28 @@ std::string shown(const Lines& lines, const std::string& path, std::span<const K
 
 }  // namespace
 
-std::string changes(std::string_view before, std::string_view now, std::span<const Key> keys) {
-  if (before == now) return {};
-  constexpr int most = 4;  // more would hide what matters
+std::vector<std::string> changed_lines(std::string_view before, std::string_view now, std::span<const Key> keys) {
   const Lines old_lines = lines_of(before);
   const Lines new_lines = lines_of(now);
   Lines all = old_lines;
   all.insert(new_lines.begin(), new_lines.end());
-  std::string text;
-  int count = 0;
+  std::vector<std::string> changed;
   for (const auto& [path, unused] : all) {
     const auto a = old_lines.find(path);
     const auto b = new_lines.find(path);
     if (a != old_lines.end() && b != new_lines.end() && a->second == b->second) continue;
-    if (++count > most) continue;
-    text +=
-        (text.empty() ? "" : ", ") + path + ": " + shown(old_lines, path, keys) + " -> " + shown(new_lines, path, keys);
+    changed.push_back(path + ": " + shown(old_lines, path, keys) + " -> " + shown(new_lines, path, keys));
   }
-  if (count > most) text += " and " + std::to_string(count - most) + " more";
+  return changed;
+}
+
+std::string changes(std::string_view before, std::string_view now, std::span<const Key> keys) {
+  if (before == now) return {};
+  constexpr std::size_t most = 4;  // more would hide what matters
+  const std::vector<std::string> changed = changed_lines(before, now, keys);
+  std::string text;
+  for (std::size_t i = 0; i < std::min(changed.size(), most); ++i) text += (i > 0 ? ", " : "") + changed[i];
+  if (changed.size() > most) text += " and " + std::to_string(changed.size() - most) + " more";
   return text.empty() ? "the order of its content" : text;
 }
 
