@@ -9,6 +9,7 @@
 #include "engine/core/errors.h"
 #include "engine/core/text.h"
 #include "reports/commands/last_words.h"
+#include "reports/commands/night.h"
 #include "reports/commands/parse.h"
 #include "reports/commands/table.h"
 
@@ -23,6 +24,7 @@ int perform(int argc, char** argv) {
     return call.command->perform(call.arguments);
   } catch (const dem::InputError& error) {
     tell(error.what());
+    cli::annotate(error);
     return 2;
   } catch (const dem::EnvironmentError& error) {
     tell(error.what());

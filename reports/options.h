@@ -1,5 +1,6 @@
 #pragma once
 // What a report is made from besides the records: its options, and the facts of the run.
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -17,6 +18,11 @@ struct Again {
   std::string needs;                 ///< a file that must lie there as well (an Elle file); "": none
 };
 
+/// What the page says at its top of what changed since a reference, in HTML: on the screen, and in print.
+struct SinceReference {
+  std::string shown, printed;
+};
+
 struct ReportOptions {
   std::filesystem::path folder;  ///< out/NAME.SCALE or a folder in it; made when missing
   std::filesystem::path assets;  ///< the folder with page template, style sheet, published numbers, choices, citations
@@ -27,7 +33,11 @@ struct ReportOptions {
   std::string engine_version;    ///< "0.1.0"
   int workers = 1;               ///< processes to draw in; the same bytes with any number
   double pdf_seconds = 900;      ///< WeasyPrint is ended after so long
-  std::function<bool()> stopped = [] { return false; };  ///< asked for while drawing and printing
+  std::function<bool()> stopped = [] { return false; };                 ///< asked for while drawing and printing
+  std::function<void(std::size_t done, std::size_t all)> drawing = {};  ///< told how many pictures are drawn
+  /// Asked when summary.json, figures and data are written, with the page as it is without the answer. None: nothing.
+  std::function<SinceReference(const std::string& page)> compare_with_reference = {};
+  SinceReference since_reference{};  ///< its answer
 };
 
 /// What varies between runs of the same input, for run.json: {"host", ...}, {"threads", 2.0}; a dot nests ("wall_s.total").

@@ -12,3 +12,4 @@ dem_test(test_report_page SOURCES reports/test_page.cpp LIBRARIES dem_synthetic 
 add_library(dem_made_report STATIC reports/made_report.cpp)
 target_link_libraries(dem_made_report PUBLIC dem_render PRIVATE dem_store nlohmann_json::nlohmann_json fmt::fmt dem_warnings)
 dem_test(test_comparison SOURCES reports/test_comparison.cpp LIBRARIES dem_made_report dem_comparison dem_models)
+dem_test(test_overview SOURCES reports/test_overview.cpp LIBRARIES dem_made_report dem_overview)

@@ -24,6 +24,20 @@ std::string bar(double fraction) {
          std::string(static_cast<std::size_t>(cells - full), '.') + "] ";
 }
 
+/// As JSON writes it.
+std::string quoted(const std::string& text) {
+  std::string all = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') all += '\\';
+    if (static_cast<unsigned char>(c) < 0x20) {
+      all += fmt::format("\\u{:04x}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+    } else {
+      all += c;
+    }
+  }
+  return all + "\"";
+}
+
 }  // namespace
 
 std::string duration_text(double seconds) {
@@ -44,10 +58,12 @@ void ProgressPrinter::start(int total) {
 
 void ProgressPrinter::begin(const std::string& id, int number) {
   running_.push_back({.id = id, .number = number, .shown_time = seconds_()});
+  tell("begin", fmt::format(R"("case":{},"number":{},"of":{})", quoted(id), number, total_));
 }
 
 void ProgressPrinter::end(const std::string& id) {
   ++done_;
+  tell("end", fmt::format(R"("case":{},"done":{},"of":{})", quoted(id), done_, total_));
   std::erase_if(running_, [&](const Running& running) { return running.id == id; });
 }
 
@@ -62,6 +78,13 @@ void ProgressPrinter::update(const std::string& id, const Progress& progress) {
   }
   if (mode_ == Mode::bar) {
     draw_bar();
+  } else if (mode_ == Mode::json) {
+    if (seconds_() - running->shown_time < 1) return;
+    running->shown_time = seconds_();
+    const double left = seconds_left(*running);
+    tell("progress", fmt::format(R"("case":{},"stage":{},"fraction":{:.4f})", quoted(id), quoted(progress.stage),
+                                 progress.fraction) +
+                         (std::isfinite(left) ? fmt::format(R"(,"seconds_left":{:.0f})", left) : ""));
   } else {
     write_line(*running);
   }
@@ -89,8 +112,28 @@ void ProgressPrinter::write_line(Running& running) {
   running.shown_time = now;
 }
 
+void ProgressPrinter::tell(const std::string& event, const std::string& fields) {
+  if (mode_ != Mode::json) return;
+  out_ << fmt::format(R"({{"event":"{}",{}}})", event, fields) << std::endl;
+}
+
+void ProgressPrinter::count(const std::string& what, std::size_t done, std::size_t all) {
+  if (mode_ == Mode::quiet || done == counted_) return;
+  const double now = seconds_();
+  if (mode_ == Mode::bar) {
+    out_ << "\r\033[K" << what << " " << done << "/" << all << std::flush;
+    bar_shown_ = true;
+  } else if (done == all || now - count_time_ >= (mode_ == Mode::json ? 1 : line_interval)) {
+    if (mode_ == Mode::lines) out_ << what << " " << done << "/" << all << std::endl;
+    tell("count", fmt::format(R"("what":{},"done":{},"of":{})", quoted(what), done, all));
+    count_time_ = now;
+  }
+  counted_ = done;
+}
+
 void ProgressPrinter::say(const std::string& text) {
   if (mode_ == Mode::quiet) return;
+  if (mode_ == Mode::json) return tell("say", "\"text\":" + quoted(printable(text, true)));
   clear();
   out_ << printable(text, true) << std::endl;
 }

@@ -11,7 +11,7 @@ namespace dem {
 
 class ProgressPrinter {
  public:
-  enum class Mode { bar, lines, quiet };
+  enum class Mode { bar, lines, quiet, json };  ///< json: an object a line
 
   /// `seconds` is a clock (for tests), `width` the columns of the terminal.
   ProgressPrinter(std::ostream& out, Mode mode, std::function<double()> seconds, int width = 100);
@@ -23,7 +23,8 @@ class ProgressPrinter {
   void begin(const std::string& id, int number);                 ///< a case starts; others may be running
   void update(const std::string& id, const Progress& progress);  ///< of a case that has begun; at any rate
   void end(const std::string& id);                               ///< a case is done, whether it has begun or not
-  void say(const std::string& line);                             ///< a whole line, the bar out of its way
+  void count(const std::string& what, std::size_t done, std::size_t all);  ///< "drawing 12/40"; at any rate
+  void say(const std::string& line);                                       ///< a whole line, the bar out of its way
 
   void clear();  ///< takes the bar away, for what others print
 
@@ -43,6 +44,7 @@ class ProgressPrinter {
   /// "2/6 done, compression_ar_2 42 % (1 min 23 s left), compression_ar_3 17 %"
   [[nodiscard]] std::string study_line() const;
   [[nodiscard]] double seconds_left(const Running& running) const;  ///< NaN: no idea yet
+  void tell(const std::string& event, const std::string& fields);   ///< an object, in json
   void draw_bar();
   void write_line(Running& running);
 
@@ -54,6 +56,8 @@ class ProgressPrinter {
   int done_ = 0;
   std::vector<Running> running_;  // in the order of their beginning
   double bar_time_ = 0;
+  double count_time_ = 0;
+  std::size_t counted_ = 0;
   bool bar_shown_ = false;
 };
 

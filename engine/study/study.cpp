@@ -395,6 +395,10 @@ fs::path case_folder(const fs::path& output, const Study& study, const std::stri
   return inside(inside(output, study.folder()) / "cases", id);
 }
 
+std::string why_to_run(const fs::path& output, const Study& study, const CaseSpec& spec) {
+  return look_up(spec, case_folder(output, study, spec.id) / "results.h5", *study.model).why;
+}
+
 bool is_kept(const fs::path& output, const Study& study, const CaseSpec& spec) {
   return is_current(spec, case_folder(output, study, spec.id) / "results.h5");
 }

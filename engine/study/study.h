@@ -93,6 +93,9 @@ Study with_one_case(const Study& study, const std::string& id);
 /// Where a case keeps its record, its checkpoint and what is known of its run.
 std::filesystem::path case_folder(const std::filesystem::path& output, const Study& study, const std::string& id);
 
+/// Why a case has to be simulated, as StudyListener::begin() says it; "" when its record is current.
+std::string why_to_run(const std::filesystem::path& output, const Study& study, const CaseSpec& spec);
+
 /// Whether a current record is there.
 bool is_kept(const std::filesystem::path& output, const Study& study, const CaseSpec& spec);
 

@@ -2,15 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <iostream>
 
+#include "engine/core/files.h"
 #include "engine/core/text.h"
 #include "reports/cluster/estimate.h"
 #include "reports/commands/machine.h"
+#include "reports/commands/terminal.h"
+#include "reports/comparison/folders.h"
 #include "reports/output/report.h"
+#include "reports/overview/study_row.h"
 
 namespace cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// With the seconds of each case, also of those that an earlier run has made, here or on another machine.
 reports::RunFacts run_facts(int threads, const dem::Study& study, const std::vector<dem::CaseOutcome>& outcomes,
@@ -49,6 +58,12 @@ bool all_well(const std::vector<dem::CaseOutcome>& outcomes) {
   return well;
 }
 
+/// What a person opens: the page, else the PDF.
+fs::path shown_file(const std::vector<fs::path>& files) {
+  const auto page = std::ranges::find_if(files, [](const fs::path& file) { return file.extension() == ".html"; });
+  return page == files.end() ? files.back() : *page;
+}
+
 }  // namespace
 
 bool Reporter::report(const dem::Study& study, const std::vector<dem::CaseOutcome>& outcomes,
@@ -73,18 +88,44 @@ bool Reporter::report(const dem::Study& study, const std::vector<dem::CaseOutcom
   report.workers = options_.threads;
   report.pdf_seconds = options_.pdf_seconds;
   if (options_.stop) report.stopped = [stop = options_.stop] { return stop->load(); };
+  report.drawing = options_.drawing;
+  const fs::path page = report.folder / "comparison.html", json = report.folder / "comparison.json";
+  std::optional<comparison::StudyComparison> since;
+  if (options_.reference.empty()) {
+    std::error_code ignored;  // of an earlier run
+    fs::remove(page, ignored);
+    fs::remove(json, ignored);
+  } else {
+    report.compare_with_reference = [&](const std::string& words) {
+      since =
+          comparison::compare_with_reference(report.folder, options_.reference, words,
+                                             {.models = dem::models(), .tolerances = {}, .threads = options_.threads});
+      dem::write_file(page, comparison::comparison_page({{*since}}, options_.assets));
+      dem::write_file(json, comparison::comparison_json({{*since}}));
+      return reports::SinceReference{comparison::since_section(*since, page.filename().string(), options_.assets),
+                                     comparison::since_section(*since, {}, options_.assets)};
+    };
+  }
   const auto own_canvas = [&]() -> render::Canvas& {
     if (!canvas_) canvas_.emplace();
     return *canvas_;
   };
   const reports::ReportOutcome made =
       reports::make_report(result, report, own_canvas, run_facts(options_.threads, study, outcomes, options_.output));
+  options_.before_words();
+  const bool changed = since && !since->well();
   if (!options_.quiet) {
-    for (const std::filesystem::path& file : made.files) std::cout << file.string() << "\n" << std::flush;
+    const overview::StudyRow row = overview::read_row(report.folder, false);
+    const bool bad = row.state() != "well" && coloured(STDOUT_FILENO);
+    std::cout << (bad ? "\033[31m" : "")
+              << dem::printable(study.scenario.name() + " " + study.scenario.scale() + ": " + row.verdict())
+              << (bad ? "\033[0m" : "") << "; " << shown_file(made.files).string() << "\n"
+              << std::flush;
   }
+  if (changed) std::cerr << "dem-report: " << study.folder() << ": " << since->sentence() << " since the reference\n";
   const bool met = made.published_all_met || !options_.strict;
   if (!met) std::cerr << "dem-report: a published number is missed (see the table in the report)\n";
-  return all_well(outcomes) && met;
+  return all_well(outcomes) && met && !changed;
 }
 
 }  // namespace cli

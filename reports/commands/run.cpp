@@ -1,11 +1,14 @@
 // dem-report run: scenarios -> simulation -> reports.
 #include "reports/commands/run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iostream>
 
 #include "engine/core/errors.h"
 #include "engine/core/instruction_set.h"
+#include "engine/core/text.h"
 #include "engine/study/study.h"
 #include "reports/commands/again.h"
 #include "reports/commands/assets.h"
@@ -16,6 +19,7 @@
 #include "reports/commands/study_options.h"
 #include "reports/commands/terminal.h"
 #include "reports/commands/verbs.h"
+#include "reports/comparison/tolerances.h"
 #include "reports/output/drawing.h"
 #include "reports/output/pdf.h"
 #include "reports/published/papers.h"
@@ -36,8 +40,62 @@ ReporterOptions reporter_options(const RunRequest& request) {
   options.strict = request.strict;
   options.pdf_seconds = request.pdf_seconds;
   options.stop = &stop_asked();
+  options.reference = request.night.reference;
   return options;
 }
+
+/// Reports one study, and says on the way what a person waits for. An error of the machine ends this study alone when there
+/// are others.
+class Night {
+ public:
+  Night(const RunRequest& request, std::span<const dem::Study> studies, dem::ProgressPrinter& progress,
+        const std::filesystem::path& shipped)
+      : request_(request), studies_(studies), progress_(progress), shipped_(shipped) {
+    if (studies.size() < 2 || request.quiet) return;
+    for (const dem::Study& study : studies) {
+      plans_.push_back(plan_of(study, study_options(request)));
+      seconds_ += plans_.back().seconds;
+    }
+  }
+
+  /// True when all is well with it.
+  bool report(std::size_t at, const CaseSource& outcomes_of, Reporter& reporter) {
+    const dem::Study& study = studies_[at];
+    begin(at);
+    try {
+      const auto outcomes = outcomes_of(study);
+      progress_.say("drawing the figures and the report");
+      return reporter.report(study, outcomes, how_again(request_, study.scenario, shipped_));
+    } catch (const dem::EnvironmentError& error) {
+      if (studies_.size() < 2) throw;
+      progress_.clear();
+      std::cerr << "dem-report: " << study.folder() << ": " << dem::printable(error.what(), true) << "\n";
+      write_failure(request_.output / study.folder(), error.what());
+      failed_ = true;
+      return false;
+    }
+  }
+
+  [[nodiscard]] bool failed() const { return failed_; }  ///< a study could not run
+
+ private:
+  void begin(std::size_t at) {
+    if (plans_.empty()) return;
+    double left = 0;
+    for (std::size_t i = at; i < plans_.size(); ++i) left += plans_[i].seconds;
+    progress_.say(fmt::format("[{}/{}] {}: {} of {} cases to simulate, about {}; all: about {} left", at + 1,
+                              studies_.size(), studies_[at].folder(), plans_[at].to_run, studies_[at].cases.size(),
+                              dem::duration_text(plans_[at].seconds), dem::duration_text(left)));
+  }
+
+  const RunRequest& request_;
+  std::span<const dem::Study> studies_;
+  dem::ProgressPrinter& progress_;
+  const std::filesystem::path& shipped_;
+  std::vector<StudyPlan> plans_;
+  double seconds_ = 0;
+  bool failed_ = false;
+};
 
 /// What became of a run that was stopped, and how to go on.
 std::string stopped_text(const dem::Interrupted& interrupted, const std::string& folder) {
@@ -71,6 +129,7 @@ std::vector<Option> options() {
   add({{.name = "report-only", .help = "draw from the records that are there, simulate nothing"},
        {.name = "force", .help = "simulate also the cases whose record is current"}});
   add(report_options());
+  add(night_options());
   add(executor_options());
   add({quiet_option(),
        {.name = "explain-keys", .help = "the same as dem-report keys", .verb = "keys"},
@@ -100,6 +159,7 @@ std::vector<dem::Study> checked_studies(const RunRequest& request) {
     reports::chosen_figures({&study.scenario, {}}, request.figure);
     reports::check_topics(study.scenario, assets_folder() / "papers");
   }
+  if (!request.night.reference.empty()) comparison::read_tolerances(request.night.reference);
   return studies;
 }
 
@@ -108,31 +168,42 @@ int run(const RunRequest& request) {
   for (const dem::Study& study : studies) {
     for (const std::string& note : study.notes) std::cerr << "dem-report: note: " << note << "\n";
   }
+  if (request.dry_run) {
+    print_dry_run(studies, study_options(request));
+    return 0;
+  }
   const Executor& executor = find_executor(request.executor.name);
   executor.check(request);
   if (request.pdf) reports::check_printing();
   (void)dem::instruction_sets();  // a wrong DEM_SIMD is found before anything runs
-  Reporter reporter(reporter_options(request));
   const std::filesystem::path shipped = shipped_scenarios(assets_folder());
   listen_to_signals();
-  dem::ProgressPrinter progress = progress_printer(request.quiet);
+  dem::ProgressPrinter progress = progress_printer(request.quiet, request.json_progress);
+  ReporterOptions options = reporter_options(request);
+  options.drawing = [&](std::size_t done, std::size_t all) { progress.count("drawing", done, all); };
+  options.before_words = [&] { progress.clear(); };
+  Reporter reporter(options);
   bool well = true;
+  bool failed = false;
   try {
     reports::check_drawing([] { return stop_asked().load(); });
     const Work work{request, studies, progress};
     const std::optional<CaseSource> outcomes_of = executor.begin(work);
     if (!outcomes_of) return 0;
-    for (const dem::Study& study : studies) {
-      const auto outcomes = (*outcomes_of)(study);
-      progress.say("drawing the figures and the report");
-      well = reporter.report(study, outcomes, how_again(request, study.scenario, shipped)) && well;
+    Night night(request, studies, progress, shipped);
+    std::vector<std::string> folders;
+    for (std::size_t i = 0; i < studies.size(); ++i) {
+      well = night.report(i, *outcomes_of, reporter) && well;
+      folders.push_back((std::filesystem::path(studies[i].folder()) / part_folder(request)).generic_string());
     }
+    failed = night.failed();
+    end_night(request.night, request.output, folders, request.strict);
   } catch (const dem::Interrupted& interrupted) {
     progress.clear();
     std::cerr << stopped_text(interrupted, request.output.string());
     return interrupted.signal != 0 ? 128 + interrupted.signal : exit_code_of_signal();
   }
-  return well ? 0 : 1;
+  return failed ? 3 : well ? 0 : 1;
 }
 
 std::vector<Option> report_options() {
@@ -170,8 +241,9 @@ void take_report_options(const Arguments& arguments, RunRequest& request) {
 std::vector<ExitCode> run_exit_codes() {
   std::vector<ExitCode> codes = usual_exit_codes();
   codes.insert(codes.begin() + 1, {"1",
-                                   "a case or one of its checks failed (with --strict also: a published number "
-                                   "was missed); the report is made all the same"});
+                                   "a case or one of its checks failed, something changed beyond tolerance since the "
+                                   "reference (with --strict also: a published number was missed); the report is "
+                                   "made all the same"});
   codes.push_back({"129, 130, 143", "stopped by a signal: the same command goes on where it stopped"});
   return codes;
 }
@@ -189,6 +261,13 @@ RunRequest run_request(const Arguments& arguments) {
   request.report_only = arguments.has("report-only");
   request.force = arguments.has("force");
   request.quiet = arguments.has("quiet");
+  request.night = night_request(arguments);
+  request.json_progress = arguments.text("progress") == "json";
+  request.dry_run = arguments.has("dry-run");
+  if (!request.night.reference.empty() && (!request.figure.empty() || !request.only_case.empty())) {
+    throw dem::InputError({}, "--reference", "does not go with --only or --case",
+                          "a part of a study cannot be compared with the whole of it");
+  }
   if (request.report_only && request.force) {
     throw dem::InputError({}, "--report-only", "does not go with --force", "choose one of them");
   }

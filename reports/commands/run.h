@@ -7,6 +7,7 @@
 #include "engine/study/study.h"
 #include "reports/commands/arguments.h"
 #include "reports/commands/command.h"
+#include "reports/commands/night.h"
 
 namespace cli {
 
@@ -36,6 +37,9 @@ struct RunRequest {
   bool quiet = false;
   bool strict = false;
   ExecutorRequest executor;
+  NightRequest night;
+  bool json_progress = false;
+  bool dry_run = false;
 };
 
 /// Throws dem::InputError when options do not go together.

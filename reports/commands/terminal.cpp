@@ -5,7 +5,9 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <iostream>
+#include <string_view>
 
 namespace cli {
 namespace {
@@ -21,9 +23,15 @@ int terminal_width() {
 
 }  // namespace
 
-dem::ProgressPrinter progress_printer(bool quiet) {
+bool coloured(int file) {
+  const char* no_colour = std::getenv("NO_COLOR");
+  const char* kind = std::getenv("TERM");
+  return isatty(file) != 0 && (!no_colour || *no_colour == 0) && kind && std::string_view(kind) != "dumb";
+}
+
+dem::ProgressPrinter progress_printer(bool quiet, bool json) {
   using Mode = dem::ProgressPrinter::Mode;
-  const Mode mode = quiet ? Mode::quiet : isatty(STDERR_FILENO) != 0 ? Mode::bar : Mode::lines;
+  const Mode mode = quiet ? Mode::quiet : json ? Mode::json : isatty(STDERR_FILENO) != 0 ? Mode::bar : Mode::lines;
   return {std::cerr, mode, seconds_now, terminal_width()};
 }
 

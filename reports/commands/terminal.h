@@ -5,8 +5,11 @@
 
 namespace cli {
 
-/// Writes to stderr: a bar on a terminal, lines in a log, nothing when `quiet`.
-dem::ProgressPrinter progress_printer(bool quiet);
+/// Writes to stderr: a bar on a terminal, lines in a log, objects when `json`, nothing when `quiet`.
+dem::ProgressPrinter progress_printer(bool quiet, bool json = false);
+
+/// Whether a terminal is there that wants colours (NO_COLOR, TERM).
+bool coloured(int file);
 
 /// Tells `progress` what happens to the cases of a study. Keeps a reference to it.
 dem::StudyListener progress_listener(dem::ProgressPrinter& progress);

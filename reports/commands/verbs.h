@@ -7,6 +7,7 @@ namespace cli::verbs {
 Command run();       ///< run.cpp
 Command compare();   ///< compare.cpp
 Command accept();    ///< accept.cpp
+Command index();     ///< index.cpp
 Command plan();      ///< plan.cpp
 Command run_case();  ///< run_case.cpp
 Command collect();   ///< collect.cpp

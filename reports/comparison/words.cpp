@@ -9,8 +9,8 @@ namespace comparison {
 namespace {
 
 /// Parts of the page that are compared as numbers, or that say how and from what the page was made.
-constexpr std::array left_out = {"since-reference", "results",  "published", "checks",      "energy",
-                                 "again",           "scenario", "contents",  "what-was-run"};
+constexpr std::array left_out = {"since-reference", "diagnostics", "results",  "published", "checks",
+                                 "energy",          "again",       "scenario", "contents",  "what-was-run"};
 constexpr std::array blocks = {"p",  "li", "tr",  "dt",      "dd",         "h1",      "h2",     "h3",     "h4",   "ul",
                                "ol", "dl", "div", "section", "figcaption", "caption", "header", "footer", "table"};
 

@@ -119,9 +119,10 @@ Drawn drawn_by(const Job& job, const std::filesystem::path& folder, const Canvas
 
 // A process that a driver crashed says nothing more: what is set here may tell why.
 template <class Work>
-auto in_drawing_processes(std::size_t count, int workers, const Work& work, const std::function<bool()>& stopped) {
+auto in_drawing_processes(std::size_t count, int workers, const Work& work, const std::function<bool()>& stopped,
+                          const std::function<void(std::size_t)>& taken = {}) {
   try {
-    return in_processes<decltype(work(std::size_t{0}))>(count, workers, work, stopped);
+    return in_processes<decltype(work(std::size_t{0}))>(count, workers, work, stopped, taken);
   } catch (const ProcessEnded& ended) {
     throw dem::EnvironmentError(ended.what() + render::Canvas::settings());
   }
@@ -147,7 +148,9 @@ std::vector<Drawn> draw_all(const std::vector<Job>& jobs, const ReportOptions& o
       return *own;
     });
   };
-  return in_drawing_processes(jobs.size(), workers, one, options.stopped);
+  return in_drawing_processes(jobs.size(), workers, one, options.stopped, [&](std::size_t taken) {
+    if (options.drawing) options.drawing(taken, jobs.size());
+  });
 }
 
 /// What processes that were ended left in the folders.

@@ -47,13 +47,17 @@ ReportOutcome make_report(StudyResult study, const ReportOptions& options, const
     outcome.files.push_back(path);
   };
   written("summary.json", [&](const auto& path) { dem::write_file(path, summary_json(study, comparisons, drawn)); });
+  ReportOptions shown = options;
+  if (options.compare_with_reference) {
+    shown.since_reference = options.compare_with_reference(page(study, comparisons, drawn, options, Images::linked));
+  }
   if (options.html || options.pdf) {
     if (options.html) {
-      const std::string html = page(study, comparisons, drawn, options, Images::embedded);
+      const std::string html = page(study, comparisons, drawn, shown, Images::embedded);
       written("report.html", [&](const auto& path) { dem::write_file(path, html); });
     }
     if (options.pdf) {
-      const std::string html = page(study, comparisons, drawn, options, Images::linked);
+      const std::string html = page(study, comparisons, drawn, shown, Images::linked);
       written("report.pdf", [&](const auto& path) {
         print_pdf(html, options.assets / "page" / "print.css", path, {options.pdf_seconds, options.stopped});
       });

@@ -116,7 +116,8 @@ std::string ending_of(int status) {
 
 std::vector<std::byte> in_processes(std::size_t count, std::size_t size, int workers,
                                     const std::function<void(std::size_t piece, std::byte* result)>& work,
-                                    const std::function<bool()>& stopped) {
+                                    const std::function<bool()>& stopped,
+                                    const std::function<void(std::size_t)>& taken) {
   constexpr std::size_t results_from = (sizeof(Board) + 63) / 64 * 64;
   const SharedMemory memory(results_from + count * size);
   Board& board = *new (memory.at(0)) Board;
@@ -143,6 +144,7 @@ std::vector<std::byte> in_processes(std::size_t count, std::size_t size, int wor
     if (stopped()) throw dem::Interrupted{};
     children.look(look_at);
     throw_if_asked_to_end(signal);
+    if (taken) taken(std::min(board.next.load(), count));
     if (children.size() > 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   if (stopped()) throw dem::Interrupted{};

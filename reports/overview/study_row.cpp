@@ -74,7 +74,8 @@ void read_summary(const fs::path& folder, StudyRow& row, std::vector<std::string
 void read_run(const fs::path& folder, StudyRow& row) {
   const Json run = Json::parse(dem::read_file(folder / "run.json"));
   row.error = run.value("error", "");
-  if (run.contains("report_seconds")) row.seconds += run.at("report_seconds").get<double>();
+  row.report_seconds = run.value("report_seconds", 0.0);
+  row.seconds += row.report_seconds;
   if (!run.contains("case_seconds")) return;
   for (const auto& [id, seconds] : run.at("case_seconds").items()) {
     row.seconds += seconds.get<double>();

@@ -52,9 +52,10 @@ struct StudyRow {
   std::vector<ChangeOf> changes{};
   std::vector<std::string> causes{};
   std::vector<Number> numbers{};
-  double seconds = 0;       ///< of what the last run simulated and drew
-  std::string report{};     ///< "ldb_minerals.smoke/report.html"; "" when there is none
-  std::string thumbnail{};  ///< bytes of a PNG; "" when it has no picture
+  double seconds = 0;         ///< of its simulations, as far as they are known, and of the report
+  double report_seconds = 0;  ///< of the report alone
+  std::string report{};       ///< "ldb_minerals.smoke/report.html"; "" when there is none
+  std::string thumbnail{};    ///< bytes of a PNG; "" when it has no picture
 
   [[nodiscard]] std::size_t failed_cases() const;
   [[nodiscard]] std::size_t checks_held() const;

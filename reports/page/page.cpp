@@ -162,6 +162,7 @@ std::string page(const StudyResult& study, const Comparisons& comparisons, const
   data.set("choices", list_of(choices));
   set_citations(data, scenario, options);
   set_again(data, scenario, options.again);
+  data.set("since", images == Images::embedded ? options.since_reference.shown : options.since_reference.printed);
   return pattern.render(data);
 }
 
