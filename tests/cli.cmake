@@ -3,8 +3,9 @@ dem_test(test_options SOURCES cli/test_options.cpp cli/test_assets.cpp cli/test_
 target_compile_definitions(test_options PRIVATE DEM_BUILD_DIR="${PROJECT_BINARY_DIR}")
 dem_test(test_usage SOURCES cli/test_usage.cpp cli/program.cpp LIBRARIES dem_core)
 dem_test(test_runs SOURCES cli/test_runs.cpp cli/program.cpp LIBRARIES dem_core)
+dem_test(test_night SOURCES cli/test_night.cpp cli/program.cpp LIBRARIES dem_core)
 dem_test(test_tools SOURCES cli/test_tools.cpp cli/program.cpp LIBRARIES dem_core)
-foreach(test test_usage test_runs test_tools)
+foreach(test test_usage test_runs test_night test_tools)
   target_compile_definitions(${test} PRIVATE DEM_PROGRAM="$<TARGET_FILE:dem-report>")
   add_dependencies(${test} dem-report)
 endforeach()
@@ -13,7 +14,13 @@ endforeach()
 add_test(NAME test_launcher COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/launcher)
 set_tests_properties(test_launcher PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
 
+
 # Pages of smoke reports as Chromium shows and prints them, looked at by axe-core. Exit code 77: one of them is not to be had.
 add_test(NAME test_pages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/page/run $<TARGET_FILE:dem-report>
                                  ${CMAKE_CURRENT_BINARY_DIR}/pages)
 set_tests_properties(test_pages PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
+
+# All scenarios at smoke scale against what was accepted. Exit code 77: there are no references.
+add_test(NAME test_references
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/references/check $<TARGET_FILE:dem-report> ${PROJECT_BINARY_DIR}/smoke)
+set_tests_properties(test_references PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900 PROCESSORS 2)

@@ -90,7 +90,11 @@ void end_night(const NightRequest& request, const fs::path& output, const std::v
 }
 
 void write_failure(const fs::path& folder, const std::string& error) {
-  dem::write_file(folder / "run.json", reports::run_json({{"error", error}}));
+  try {
+    dem::write_file(folder / "run.json", reports::run_json({{"error", error}}));
+  } catch (const dem::EnvironmentError&) {
+    // The folder itself may be what is in the way; the error was told.
+  }
 }
 
 StudyPlan plan_of(const dem::Study& study, const dem::StudyOptions& options) {
