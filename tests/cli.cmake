@@ -14,7 +14,6 @@ endforeach()
 add_test(NAME test_launcher COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/launcher)
 set_tests_properties(test_launcher PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
 
-
 # Pages of smoke reports as Chromium shows and prints them, looked at by axe-core. Exit code 77: one of them is not to be had.
 add_test(NAME test_pages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/page/run $<TARGET_FILE:dem-report>
                                  ${CMAKE_CURRENT_BINARY_DIR}/pages)
