@@ -230,6 +230,7 @@ class Comparer {
       return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) || a == b;
     };
     const bool same_numbers = std::ranges::equal(before.numbers, now.numbers, same_number);
+    item.moved = !same_numbers;
     if (same_numbers && !item.turned && before.unit == now.unit) {
       item.was = item.is = one_number(now);
       return;
@@ -502,17 +503,20 @@ class Comparer {
   /// A difference whose cause no key names.
   void explain() {
     if (result_.alarms() == 0 || !result_.causes.empty()) return;
-    std::size_t numbers = 0, bits = 0, cases = 0;
+    std::size_t numbers = 0, bits = 0, words = 0;
     for (const Item& item : result_.items) {
-      if (item.kind == Kind::study_case && item.alarms()) ++cases;
-      const bool number = item.kind == Kind::result || item.kind == Kind::check;
-      if (!number || item.state == State::same) continue;
+      if (item.kind == Kind::study_case && item.alarms()) return;  // the cases themselves say it
+      if (item.state == State::same || (item.kind != Kind::result && item.kind != Kind::check)) continue;
+      if (item.turned) ++words;
+      if (!item.moved) continue;
       ++numbers;
       if (item.difference.find("in the last place") != std::string::npos) ++bits;
     }
-    if (cases > 0) return;
     if (numbers == 0) {
-      result_.causes.push_back({"the same input and the same results: the drawing or the words of the report changed"});
+      result_.causes.push_back({words > 0
+                                    ? "the same input and the same numbers: a check is judged otherwise"
+                                    : "the same input and the same results: the drawing, the words of the report or "
+                                      "the judgement of published numbers changed"});
     } else if (bits == numbers) {
       result_.causes.push_back(
           {"the same input and physics version, and results that differ in their last bits alone: another compiler, "

@@ -45,6 +45,7 @@ struct Item {
   std::string was{}, is{};           ///< "" where there is none
   std::string difference{};          ///< "+1.2 %", "1 unit in the last place", "0.8 % of the range"
   std::string tolerance{};           ///< how much may change, and where that comes from
+  bool moved = false;                ///< its number is another one
   bool turned = false;               ///< a check or a verdict says another word
   std::vector<std::string> lines{};  ///< keys that changed; lines of text, "-" and "+"
   std::vector<Overlay> overlays{};
