@@ -89,14 +89,12 @@ std::vector<Step> steps(const std::vector<double>& values) {
   const std::size_t n = values.size();
   if (n < 2 || std::ranges::all_of(values, [&](double value) { return value == values[0]; })) return {};
   std::vector<double> changes;
-  double largest = 0;
   for (std::size_t i = 0; i < n; ++i) {
     if (i > 0) changes.push_back(std::abs(values[i] - values[i - 1]));
-    largest = std::max(largest, std::abs(values[i]));
   }
   const double noise = median(changes) / std::sqrt(2.0);
   const std::size_t least = noise > 0 ? 2 : 1;
-  const double penalty = noise > 0 ? 4 * std::log(static_cast<double>(n)) * noise : 1e-15 * largest;
+  const double penalty = noise > 0 ? 4 * std::log(static_cast<double>(n)) * noise : 0;
   if (n < 2 * least) return {};
   // best[j]: the least cost of the first j values; from[j]: where its last piece begins.
   const double none = std::numeric_limits<double>::infinity();

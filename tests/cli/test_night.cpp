@@ -123,7 +123,7 @@ TEST_CASE("several studies: one that cannot run is told, the others are made; in
   CHECK(has(outcome.out, "quartzite_elastic smoke: "));
   const std::string page = file(folder / "out/index.html");
   CHECK(has(page, "2 studies, 1 failed"));
-  CHECK(has(page, "a file of that name is in the way"));
+  CHECK(has(page, "out/other.smoke/figures"));
   CHECK(has(file(folder / "out/index.json"), "\"error\": "));
   CHECK(has(file(folder / "ci/junit.xml"), "<testsuites name=\"dem-report\""));
   CHECK(has(file(folder / "ci/summary.md"), "| other.smoke | **failed** |"));
@@ -179,7 +179,7 @@ TEST_CASE("what does not go together, and folders that are not there: 2, and why
   const test::Scratch folder;
   dem::write_file(folder / "wrong/tolerances.toml", "[[tolerance]]\nitem = \"*\"\nrelative = 0.1\n");
   const std::vector<std::pair<Texts, std::string>> wrong = {
-      {{"compare", "a"}, "no new is given"},
+      {{"compare", "a"}, "no old is given"},
       {{"compare", "a", "b"}, "OLD: there is no folder a"},
       {{"compare", ".", "."}, "no report and no reference lies in ."},
       {{"accept", "x", "--reason", "y"}, "x: no report of that name lies in out"},
