@@ -22,7 +22,7 @@ constexpr std::array kinds = {Kind::study_case, Kind::result,  Kind::check, Kind
                               Kind::curve,      Kind::picture, Kind::text};
 constexpr std::array states = {State::same, State::within_tolerance, State::within_scatter, State::beyond, State::came,
                                State::gone};
-constexpr std::size_t most_picture_bytes = 40'000'000;  // of a page
+constexpr std::size_t most_picture_bytes = 24'000'000;  // of a page
 constexpr std::size_t most_lines = 40;                  // of text or keys of one item
 
 std::string state_id(State state) {

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t most_lines = 6;  // of sparklines a study, those that stepped first
 
 std::string time_text(double seconds) {
-  if (seconds < 0.05) return "kept";
+  if (seconds <= 0) return "–";
   if (seconds < 60) return reports::number(seconds, 2) + " s";
   const auto whole = static_cast<long>(seconds + 0.5);
   return whole < 3600 ? fmt::format("{} min {:02} s", whole / 60, whole % 60)
@@ -112,9 +112,10 @@ Data row_data(const StudyRow& row, const History* history) {
   const bool broken = row.checks_held() < row.checks.size();
   data.set("checks", fmt::format("{} of {}", row.checks_held(), row.checks.size()));
   data.set("checks_class", broken ? "bad" : "");
-  std::string published = row.published.empty() ? "–" : fmt::format("{} met", row.count("met"));
+  std::string published =
+      row.published.empty() ? "–" : fmt::format("{} of {} met", row.count("met"), row.published.size());
   for (const char* word : {"missed", "undecided"}) {
-    if (!row.published.empty()) published += fmt::format(", {} {}", row.count(word), word);
+    if (const std::size_t count = row.count(word); count > 0) published += fmt::format(", {} {}", count, word);
   }
   data.set("published", published);
   std::string since = row.since;

@@ -136,6 +136,23 @@ TEST_CASE("several studies: one that cannot run is told, the others are made; in
   CHECK(file(folder / "out/index.json") == before);
 }
 
+TEST_CASE("colours on a terminal that wants them, for what is not well, and nowhere else") {
+  if (test::run_shell("/", "command -v script").code != 0) return;  // of bsdutils
+  const test::Scratch folder;
+  Accepted::copy(folder.path());
+  const auto on_terminal = [&](const std::string& environment, const std::string& more) {
+    return test::run_shell(folder.path(),
+                           "export PROGRAM; unset NO_COLOR; " + environment + " script -qec '\"$PROGRAM\" " + scenario +
+                               " --scale smoke --format html --reference references " + more + " 2>errors' /dev/null")
+        .out;
+  };
+  const std::string change = "--set rock.young_modulus=\"\\\"91 GPa\\\"\"";
+  CHECK(has(on_terminal("TERM=xterm", change), "\033[31mquartzite_elastic smoke: "));
+  CHECK_FALSE(has(on_terminal("NO_COLOR=1 TERM=xterm", change), "\033[31m"));
+  CHECK_FALSE(has(on_terminal("TERM=dumb", change), "\033[31m"));
+  CHECK_FALSE(has(on_terminal("TERM=xterm", ""), "\033[31m"));
+}
+
 TEST_CASE("a dry run says what would be simulated, and writes nothing") {
   const test::Scratch folder;
   const test::Outcome fresh = run(folder.path(), {"--dry-run"});
