@@ -1,5 +1,6 @@
 #pragma once
 // Figures as the page and summary.json see them: drawn, with the files that show them.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,14 @@ struct DrawnPanel {
 
 struct DrawnFigure {
   const Figure* figure = nullptr;
-  int number = 0;  ///< from 1, in report order
+  int number = 0;         ///< from 1, in report order
+  std::string mirrors{};  ///< the published figure; "" for another rock than the paper's
   std::string statement{}, finding{};
-  std::string problem{};  ///< why it could not be made: "" when it could
+  std::vector<std::string> rows{};       ///< see FigureContent
+  std::optional<Agreement> agreement{};  ///< of ours with the statement
+  std::string standing{};                ///< the same in words: "Disagrees (2 of 5 missed)."
+  bool expected = false;                 ///< see FigureContent
+  std::string problem{};                 ///< why it could not be made: "" when it could
   std::vector<DrawnPanel> panels{};
   std::vector<std::string> files{};
 };

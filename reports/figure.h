@@ -2,6 +2,7 @@
 // Figures: one published figure each, redrawn from records. A figure is one file in reports/figures ending in one entry
 // of the explicit table figures(): --list-figures, the report's contents and the smoke test over all figures come from it.
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -72,10 +73,16 @@ struct Panel {
   bool whole_width = false;  ///< alone in its row, it is as wide as the printed page
 };
 
+/// Whether ours agrees with the statement of a figure.
+enum class Agreement { agrees, disagrees, undecided };
+
 struct FigureContent {
   std::vector<Panel> panels;
-  std::string statement;  ///< what the paper says of this figure, in our words
-  std::string finding;    ///< what ours shows, with numbers from the records
+  std::string statement;  ///< what the paper says of this figure, in our words; nothing that its source does not say
+  std::string finding;  ///< what ours shows, with numbers from the records; the word before it is composed from these:
+  std::vector<std::string> rows;       ///< ids of the published numbers that the statement stands on
+  std::optional<Agreement> agreement;  ///< by the figure's own measure, where no number is published
+  bool expected = false;               ///< the statement is no paper's: what one expects
 };
 
 struct Figure {

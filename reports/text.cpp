@@ -38,14 +38,22 @@ std::string superscript(int exponent) {
 
 }  // namespace
 
+bool needs_powers(double value) {
+  const double size = std::abs(value);
+  return std::isfinite(value) && value != 0 && !(size >= 1e-4 && size < 1e7);
+}
+
 std::string number(double value, int digits) {
   if (!std::isfinite(value)) return "not a number";
   if (value == 0) return "0";
-  const double size = std::abs(value);
-  if (size >= 1e-4 && size < 1e7) {
-    const int before = static_cast<int>(std::floor(std::log10(size))) + 1;
-    return dressed(fmt::format("{:.{}f}", value, std::max(0, digits - before)));
-  }
+  if (needs_powers(value)) return scientific(value, digits);
+  const int before = static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
+  return dressed(fmt::format("{:.{}f}", value, std::max(0, digits - before)));
+}
+
+std::string scientific(double value, int digits) {
+  if (!std::isfinite(value)) return "not a number";
+  if (value == 0) return "0";
   const std::string text = fmt::format("{:.{}e}", value, std::max(0, digits - 1));
   const std::size_t e = text.find('e');
   return dressed(text.substr(0, e)) + " × 10" + superscript(std::stoi(text.substr(e + 1)));

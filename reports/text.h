@@ -13,6 +13,10 @@ namespace reports {
 /// `value` with `digits` significant digits, a real minus sign and thin spaces between thousands: "−1 234", "0.183",
 /// "3.2 × 10⁻⁵" outside 1e-4 ... 1e7. "not a number" for NaN.
 std::string number(double value, int digits = 3);
+/// The same in powers of ten, whatever the size: for numbers beside one that needs them. 0 stays "0".
+std::string scientific(double value, int digits = 3);
+/// Whether number() writes the value in powers of ten.
+bool needs_powers(double value);
 /// `value` with `places` decimals, a real minus sign and thin spaces.
 std::string fixed(double value, int places);
 /// A fraction as percent: percent(0.123, 1) is "12.3 %".

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/analysis/statistics.h"
+
 namespace dem::analysis {
 namespace {
 
@@ -118,6 +120,14 @@ Estimate derived(const Minimum<2>& fit, std::size_t points, double value, const 
 }  // namespace
 
 bool Estimate::has_interval() const { return std::isfinite(low) && std::isfinite(high); }
+
+Estimate mean_of(std::span<const double> values) {
+  constexpr std::size_t fewest = 3;  // the interval of two is some ten times their distance
+  const Spread known = spread(values);
+  if (known.count < fewest) return {known.mean, none, none};
+  const auto count = static_cast<double>(known.count);
+  return with_error(known.mean, known.deviation / std::sqrt(count), count - 1);
+}
 
 double student_two_sided(double t, double freedom) { return 2 * cdf(complement(Student(freedom), std::abs(t))); }
 

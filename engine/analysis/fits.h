@@ -14,6 +14,9 @@ struct Estimate {
   [[nodiscard]] bool has_interval() const;
 };
 
+/// Mean of repeats with its interval by Student's t: of three values or more. NaN of none.
+Estimate mean_of(std::span<const double> values);
+
 struct LineFit {
   Estimate intercept, slope;
   double p_value = 0;  ///< of the slope against none, two-sided; NaN without an interval

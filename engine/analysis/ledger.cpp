@@ -7,8 +7,13 @@ namespace dem::analysis {
 namespace {
 
 std::string label_of(const std::string& column) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 12> known{
-      {{"work", "Work of the platens"},
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 17> known{
+      {{"work", "Work of the boundary"},
+       {"elastic_normal", "Elastic energy, normal springs"},
+       {"elastic_shear", "Elastic energy, shear springs"},
+       {"elastic_planes", "Elastic energy, springs of the planes"},
+       {"breaking_heat_normal", "Breaking heat, normal springs"},
+       {"breaking_heat_shear", "Breaking heat, shear springs"},
        {"boundary_work", "Work of the walls"},
        {"growth_work", "Work of growing grains"},
        {"released", "Released by breaking"},

@@ -302,10 +302,10 @@ void add_strength(Record& r, const Settings& s, const Block& block, const Streng
   add_size(r, block);
   r.put(quantity::steps, static_cast<double>(test.solver().step()));
   constexpr double limit = 1e-3;
-  r.checks.push_back(
-      {"energy_residual", test.largest_residual(), limit, test.largest_residual() <= limit,
-       "Elastic, kinetic and potential energy and all heat add up to the work of the planes at every sample; the "
-       "residual is a share of the work, taken as at least a thousandth of its largest value."});
+  r.checks.push_back({"energy_residual", test.largest_residual(), limit, test.largest_residual() <= limit,
+                      "Work of the planes less elastic and kinetic energy and all heat, over the work, taken as at "
+                      "least a thousandth of its largest value; the largest of all samples. Limit: a thousandth, far "
+                      "below every published share of energy."});
   constexpr double usual_bias = 0.03;
   const double bias = test.rate_bias();
   if (test.failed() && bias > usual_bias && bias <= s.rate_bias) {
@@ -314,15 +314,15 @@ void add_strength(Record& r, const Settings& s, const Block& block, const Streng
         100 * bias, 100 * s.rate_bias));
   }
   if (!test.solver().cracks().empty()) {
-    r.checks.push_back(
-        {"quasi_static", bias, s.rate_bias, bias <= s.rate_bias,
-         "Share by which the rate of loading raises the strength, estimated from the kinetic energy over the elastic "
-         "before the first bond breaks and from the strain of a loading step over that of the peak."});
+    r.checks.push_back({"quasi_static", bias, s.rate_bias, bias <= s.rate_bias,
+                        "Share by which the rate of loading raises the strength, estimated from the kinetic over the "
+                        "elastic energy before the first bond breaks and from the strain of a loading step over that "
+                        "of the peak. Limit: the key measure.rate_bias, what the scenario allows."});
   }
   const auto unseen = static_cast<double>(test.solver().unseen_contacts());
-  r.checks.push_back(
-      {"contacts_outside_lattice", unseen, 0, unseen == 0,
-       "No two elements that are not neighbours in the lattice have come into contact, which the law would not see."});
+  r.checks.push_back({"contacts_outside_lattice", unseen, 0, unseen == 0,
+                      "Pairs of elements that are no neighbours in the lattice and came into contact. Limit: none, as "
+                      "the law knows neighbours only."});
   add_block(r, block);
   r.tables.push_back(crack_table(test.solver().cracks(), block, s.setup.time_step));
   r.tables.push_back(history_table(test.history(), m));
@@ -355,12 +355,14 @@ void add_elastic(Record& r, const Settings& s, const Block& block, const std::ve
   }
   if (s.method == ElasticMethod::rest) {
     const double restless = points.empty() ? 0 : points.back().restless;
-    r.checks.push_back({"at_rest", restless, 0, restless == 0,
-                        "Searches for rest that were given up before the kinetic energy had fallen to its limit."});
+    r.checks.push_back(
+        {"at_rest", restless, 0, restless == 0,
+         "Searches for rest that were given up before the kinetic energy had fallen to its limit. Limit: none."});
   } else {
     const auto missing = static_cast<double>(s.strains.size() - points.size());
-    r.checks.push_back({"strains_reached", missing, 0, missing == 0,
-                        "Strains of elastic.strains that loading.most_steps did not let the test come to."});
+    r.checks.push_back(
+        {"strains_reached", missing, 0, missing == 0,
+         "Strains of elastic.strains that the test did not reach within loading.most_steps. Limit: none."});
   }
   add_size(r, block);
   t.add("axial_strain", "1", std::move(strain));

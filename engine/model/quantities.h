@@ -27,14 +27,10 @@ inline constexpr Quantity tensile_strength{
 inline constexpr Quantity peak_strain{
     .id = "peak_strain", .name = "Strain at the peak", .symbol = "ε_f", .shown = "%", .factor = 100};
 
-inline constexpr Quantity cracks_intra_tension{.id = "cracks.intra_tension",
-                                               .name = "Cracks within grains, tension",
-                                               .kind = QuantityKind::count,
-                                               .of_size = true};
-inline constexpr Quantity cracks_inter_tension{.id = "cracks.inter_tension",
-                                               .name = "Cracks between grains, tension",
-                                               .kind = QuantityKind::count,
-                                               .of_size = true};
+inline constexpr Quantity cracks_intra_tension{
+    .id = "cracks.intra_tension", .name = "Intra-grain tension cracks", .kind = QuantityKind::count, .of_size = true};
+inline constexpr Quantity cracks_inter_tension{
+    .id = "cracks.inter_tension", .name = "Inter-grain tension cracks", .kind = QuantityKind::count, .of_size = true};
 
 inline constexpr Quantity energy_residual{
     .id = "energy_residual", .name = "Energy residual", .digits = 2, .kind = QuantityKind::diagnostic};

@@ -38,7 +38,10 @@ std::span<const Quantity> quantities() {
                                        settled,
                                        particles,
                                        contacts,
-                                       grains};
+                                       grains,
+                                       most_springs,
+                                       boundary_threshold_ratio,
+                                       boundary_stiffness_error};
   return declared;
 }
 

@@ -176,6 +176,24 @@ inline constexpr Quantity particles = measured(dem::quantity::particles, "", "Pa
 inline constexpr Quantity contacts = measured(dem::quantity::contacts, "", "Springs of the sheet at the start.");
 inline constexpr Quantity grains = measured(dem::quantity::grains, "", "Grains of the map.");
 
+inline constexpr Quantity most_springs{.id = "most_springs",
+                                       .name = "Most springs of a particle",
+                                       .kind = QuantityKind::count,
+                                       .meaning = "On a triangular lattice six."};
+inline constexpr Quantity boundary_threshold_ratio{
+    .id = "boundary_threshold_ratio",
+    .name = "Mean threshold at boundaries over that inside grains",
+    .kind = QuantityKind::diagnostic,
+    .meaning = "Of the springs that can break, between grains and inside them."};
+inline constexpr Quantity boundary_stiffness_error{
+    .id = "boundary_stiffness_error",
+    .name = "Spring constants at boundaries off the mean of their grains",
+    .shown = "%",
+    .factor = 100,
+    .digits = 2,
+    .kind = QuantityKind::diagnostic,
+    .meaning = "The largest, over the mean elastic constant of the two grains."};
+
 }  // namespace quantity
 
 namespace parameter {

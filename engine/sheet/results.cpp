@@ -211,16 +211,17 @@ void add_abruptness(Record& record, const Experiment& experiment) {
 void add_checks(Record& record, const Settings& settings, const Experiment& experiment) {
   const auto& e = experiment.state().equilibrium;
   if (settings.solver == "converged") {
-    record.checks.push_back({"equilibrium", e.worst, settings.converged.tolerance,
-                             e.worst <= settings.converged.tolerance && e.missed == 0,
-                             "Largest unbalanced force over the largest spring force, after any load step or break; no "
-                             "search for equilibrium was given up."});
+    record.checks.push_back(
+        {"equilibrium", e.worst, settings.converged.tolerance, e.worst <= settings.converged.tolerance && e.missed == 0,
+         "Largest unbalanced force over the largest spring force, after any load step or break; no search for "
+         "equilibrium was given up. Limit: the key solver.tolerance, the solver’s own criterion."});
     const double residual = experiment.energy_residual();
     record.checks.push_back({"energy_residual", residual, 1e-4, residual <= 1e-4,
-                             "Work that is neither elastic energy nor released by breaking or jumps, over the work."});
+                             "Work that is neither elastic energy nor released by breaking or jumps, over the work. "
+                             "Limit: small beside every term of the ledger."});
   } else {
     record.checks.push_back({"stopping_rule", static_cast<double>(e.missed), 0, e.missed == 0,
-                             "Relaxations that did not come to the stop of the sweep."});
+                             "Relaxations in which the sweep did not come to its stop. Limit: none."});
   }
 }
 
@@ -243,6 +244,39 @@ Table snapshot_table(const std::string& name, const Specimen& specimen, const Ex
   return t;
 }
 
+namespace {
+
+// What the model description says of the lattice and of grain boundaries, measured on the sheet as it was made.
+void add_description(Record& record, const Specimen& specimen) {
+  const Sheet& s = specimen.sheet;
+  const std::vector<double> of_grain = grain_stiffness(specimen);
+  std::vector<int> springs(s.x.size(), 0);
+  double sum[2] = {0, 0}, count[2] = {0, 0}, worst = 0;
+  for (int slot = 0; slot < s.slots(); ++slot) {
+    const auto at = static_cast<std::size_t>(slot);
+    if (s.stiffness[at] <= 0) continue;
+    const auto a = static_cast<std::size_t>(s.first(slot)), b = static_cast<std::size_t>(s.second(slot));
+    ++springs[a];
+    ++springs[b];
+    if (along_wall(s, slot)) continue;
+    if (std::isfinite(s.threshold[at])) {
+      sum[s.between[at]] += s.threshold[at];
+      count[s.between[at]] += 1;
+    }
+    if (!s.between[at]) continue;
+    const double mean =
+        0.5 * (of_grain[static_cast<std::size_t>(s.grain[a])] + of_grain[static_cast<std::size_t>(s.grain[b])]);
+    if (mean > 0) worst = std::max(worst, std::abs(s.stiffness[at] / mean - 1));
+  }
+  record.put(quantity::most_springs, *std::ranges::max_element(springs));
+  if (count[0] > 0 && count[1] > 0) {
+    record.put(quantity::boundary_threshold_ratio, sum[1] / count[1] / (sum[0] / count[0]));
+    record.put(quantity::boundary_stiffness_error, worst);
+  }
+}
+
+}  // namespace
+
 void add_results(Record& record, const Settings& settings, const Specimen& specimen, const Experiment& experiment,
                  const SolverWork& work) {
   const auto& breaks = experiment.state().breaks;
@@ -260,6 +294,7 @@ void add_results(Record& record, const Settings& settings, const Specimen& speci
   put(quantity::particles, specimen.sheet.particles());
   put(quantity::contacts, springs);
   put(quantity::grains, static_cast<double>(specimen.map.flynns.size()));
+  add_description(record, specimen);
   put(quantity::cracks_intra_tension, total - between);
   put(quantity::cracks_inter_tension, between);
   put(quantity::inter_grain_crack_share, total > 0 ? between / total : nan);
@@ -313,8 +348,7 @@ void add_results(Record& record, const Settings& settings, const Specimen& speci
   if (settings.solver == "historical") {
     record.notes.push_back(
         fmt::format("Made with the historical sweep and its stop: the largest unbalanced force reached {:.2g} of the "
-                    "largest spring "
-                    "force, so this is not equilibrium.",
+                    "largest spring force, so this is not equilibrium.",
                     experiment.state().equilibrium.worst));
   }
 }

@@ -35,7 +35,7 @@ struct OnDisk {
 
 OnDisk look_up(const CaseSpec& spec, const fs::path& path, const Model& model) {
   std::error_code error;
-  if (!fs::exists(path, error)) return {{}, "no record"};
+  if (!fs::exists(path, error)) return {{}, "no record yet"};
   try {
     const std::string content = read_content(path);
     if (content != spec.content) return {{}, changes(content, spec.content, model.keys())};

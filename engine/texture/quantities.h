@@ -127,7 +127,7 @@ inline constexpr Quantity contact_share{
 inline constexpr Quantity cracks_intra_tension =
     measured(dem::quantity::cracks_intra_tension, loaded, "Elements of flat joints broken in tension at the end.");
 inline constexpr Quantity cracks_intra_shear{.id = "cracks.intra_shear",
-                                             .name = "Cracks within grains, shear",
+                                             .name = "Intra-grain shear cracks",
                                              .kind = QuantityKind::count,
                                              .of_size = true,
                                              .tests = loaded,
@@ -135,35 +135,35 @@ inline constexpr Quantity cracks_intra_shear{.id = "cracks.intra_shear",
 inline constexpr Quantity cracks_inter_tension =
     measured(dem::quantity::cracks_inter_tension, loaded, "Bonds between grains broken in tension at the end.");
 inline constexpr Quantity cracks_inter_shear{.id = "cracks.inter_shear",
-                                             .name = "Cracks between grains, shear",
+                                             .name = "Inter-grain shear cracks",
                                              .kind = QuantityKind::count,
                                              .of_size = true,
                                              .tests = loaded,
                                              .meaning = "Bonds between grains broken in shear at the end."};
 inline constexpr Quantity peak_cracks_intra_tension{.id = "cracks_at_peak.intra_tension",
-                                                    .name = "Cracks at the peak within grains, tension",
+                                                    .name = "Intra-grain tension cracks at the peak",
                                                     .kind = QuantityKind::count,
                                                     .of_size = true,
                                                     .tests = loaded,
-                                                    .meaning = "The same at the peak."};
+                                                    .meaning = "At the peak of the stress."};
 inline constexpr Quantity peak_cracks_intra_shear{.id = "cracks_at_peak.intra_shear",
-                                                  .name = "Cracks at the peak within grains, shear",
+                                                  .name = "Intra-grain shear cracks at the peak",
                                                   .kind = QuantityKind::count,
                                                   .of_size = true,
                                                   .tests = loaded,
-                                                  .meaning = "The same at the peak."};
+                                                  .meaning = "At the peak of the stress."};
 inline constexpr Quantity peak_cracks_inter_tension{.id = "cracks_at_peak.inter_tension",
-                                                    .name = "Cracks at the peak between grains, tension",
+                                                    .name = "Inter-grain tension cracks at the peak",
                                                     .kind = QuantityKind::count,
                                                     .of_size = true,
                                                     .tests = loaded,
-                                                    .meaning = "The same at the peak."};
+                                                    .meaning = "At the peak of the stress."};
 inline constexpr Quantity peak_cracks_inter_shear{.id = "cracks_at_peak.inter_shear",
-                                                  .name = "Cracks at the peak between grains, shear",
+                                                  .name = "Inter-grain shear cracks at the peak",
                                                   .kind = QuantityKind::count,
                                                   .of_size = true,
                                                   .tests = loaded,
-                                                  .meaning = "The same at the peak."};
+                                                  .meaning = "At the peak of the stress."};
 /// In the order of the crack counts of a history: intra tension, intra shear, inter tension, inter shear.
 inline constexpr std::array cracks{cracks_intra_tension, cracks_intra_shear, cracks_inter_tension, cracks_inter_shear};
 inline constexpr std::array cracks_at_peak{peak_cracks_intra_tension, peak_cracks_intra_shear,
@@ -200,20 +200,21 @@ inline constexpr Quantity servo_error{
 inline constexpr Quantity energy_residual =
     measured(dem::quantity::energy_residual, loaded,
              "Largest residual of the energy account over max(W, 1 % of the largest W), W the work that came in.");
-inline constexpr Quantity stress_imbalance{
-    .id = "stress_imbalance",
-    .name = "Stress imbalance, root mean square",
-    .digits = 2,
-    .kind = QuantityKind::diagnostic,
-    .tests = loaded,
-    .meaning = "Difference between the stresses at the two ends up to the peak, over the peak stress."};
+inline constexpr Quantity stress_imbalance{.id = "stress_imbalance",
+                                           .name = "Imbalance of the two ends, root mean square",
+                                           .digits = 2,
+                                           .kind = QuantityKind::diagnostic,
+                                           .tests = loaded,
+                                           .meaning =
+                                               "Difference of the stresses at the two ends up to the peak, over the "
+                                               "peak stress; the check “equilibrium” limits it."};
 inline constexpr Quantity largest_stress_imbalance{
     .id = "largest_stress_imbalance",
-    .name = "Stress imbalance, largest",
+    .name = "Imbalance of the two ends, largest of any sample",
     .digits = 2,
     .kind = QuantityKind::diagnostic,
     .tests = loaded,
-    .meaning = "The largest of those differences: the wave of the one crack whose moment was sampled."};
+    .meaning = "The largest of those differences, mostly the wave of a single crack; no check limits it."};
 inline constexpr Quantity steps = measured(dem::quantity::steps, loaded, "Time steps of the test.");
 inline constexpr Quantity particles = measured(dem::quantity::particles, "", "Spheres of the specimen.");
 inline constexpr Quantity contacts =

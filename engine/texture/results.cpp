@@ -285,11 +285,10 @@ void add_characteristics(Record& record, const std::vector<HistoryRow>& h, const
   if (c.young_modulus) {
     record.put(quantity::young_modulus, *c.young_modulus * giga);
   } else if (c.gauge_share < 0.5 || c.gauge_share > 2) {
-    record.notes.push_back(
-        fmt::format("There is no Young’s modulus: while the stress rose from 10 to 30 % of its peak, the strain of the "
-                    "gauge was {:.2g} of that of the ends. The test is over before the ends have reached its middle; "
-                    "load it more slowly.",
-                    c.gauge_share));
+    record.notes.push_back(fmt::format(
+        "There is no Young’s modulus: while the stress rose from 10 to 30 % of its peak, the strain of the gauge was "
+        "{:.2g} of that of the ends. The test is over before the ends have reached its middle; load it more slowly.",
+        c.gauge_share));
   }
   if (c.poisson_ratio) record.put(quantity::poisson_ratio, *c.poisson_ratio);
   if (c.initiation_stiffness) {
@@ -331,13 +330,13 @@ void add_strength(Record& record, const Test& test, const Loading& loading, cons
     }
     return;
   }
-  record.notes.push_back(fmt::format(
-      "No strength was found up to a strain of {:.3g} % ({:.0f} steps), where {}.{} ended the test: the largest stress "
-      "was {:.3g} MPa at {:.3g} %, {}.",
-      100 * h.back().platen_strain, h.back().step - h.front().step, test.name, limit, h[c.peak].axial_stress * mega,
-      100 * h[c.peak].platen_strain,
-      h[c.peak].axial_stress > least_peak ? "and what followed is no failure"
-                                          : "too small to tell a failure (0.1 MPa)"));
+  record.notes.push_back(
+      fmt::format("No strength was found up to a strain of {:.3g} % ({:.0f} steps), where {}.{} ended the test: the "
+                  "largest stress was {:.3g} MPa at {:.3g} %, {}.",
+                  100 * h.back().platen_strain, h.back().step - h.front().step, test.name, limit,
+                  h[c.peak].axial_stress * mega, 100 * h[c.peak].platen_strain,
+                  h[c.peak].axial_stress > least_peak ? "and what followed is no failure"
+                                                      : "too small to tell a failure (0.1 MPa)"));
 }
 
 // Loading must be slow beside the waves that carry a change through the specimen.
@@ -346,13 +345,13 @@ void add_rate_check(Record& record, const Settings& settings, const Characterist
   constexpr double usual = 0.03;
   if (bias > usual && bias <= settings.rate_bias) {
     record.notes.push_back(fmt::format(
-        "Loaded fast: strengths are some {:.0f} % above those of slow loading (measure.rate_bias lets {:g} % "
-        "pass).",
+        "Loaded fast: strengths are some {:.0f} % above those of slow loading (measure.rate_bias lets {:g} % pass).",
         100 * bias, 100 * settings.rate_bias));
   }
-  record.checks.push_back({"quasi_static", bias, settings.rate_bias, bias <= settings.rate_bias,
-                           "Share by which the rate of loading moves the strength or Young’s modulus, estimated from "
-                           "the kinetic energy between 10 and 50 % of the peak, over the elastic."});
+  record.checks.push_back(
+      {"quasi_static", bias, settings.rate_bias, bias <= settings.rate_bias,
+       "Share by which the rate of loading moves the strength or Young’s modulus, estimated from the kinetic over the "
+       "elastic energy between 10 and 50 % of the peak. Limit: the key measure.rate_bias, what the scenario allows."});
 }
 
 void add_specimen_tables(Record& record, const Specimen& specimen, const Settings& settings) {
@@ -378,10 +377,9 @@ void add_specimen(Record& record, const Specimen& specimen, const Settings& sett
   constexpr double limit = 5e-3;
   const double wanted = settings.packing.pressure;
   const double departure = std::abs(specimen.packing.pressure / wanted - 1);
-  record.checks.push_back(
-      {"packing_pressure", departure, limit, departure <= limit,
-       "Departure of the wall pressure of the packing at rest from the material pressure asked for, as a "
-       "share of it."});
+  record.checks.push_back({"packing_pressure", departure, limit, departure <= limit,
+                           "Departure of the wall pressure of the packing at rest from the material pressure, over "
+                           "that pressure. Limit: below the 2 % by which another seed moves the modulus."});
   add_specimen_tables(record, specimen, settings);
 }
 
@@ -435,22 +433,23 @@ void add_test(Record& record, const Specimen& specimen, const Settings& settings
   record.put(quantity::fresh_contacts, static_cast<double>(loading.assembly().fresh_contacts()));
   record.put(quantity::time_step, loading.assembly().time_step());
 
-  record.checks.push_back(
-      {"energy_residual", residual, residual_limit, residual <= residual_limit,
-       "Largest residual of the energy account over max(W, 1 % of the largest W), W the work of the "
-       "platens or grips, over all samples."});
+  record.checks.push_back({"energy_residual", residual, residual_limit, residual <= residual_limit,
+                           "Largest residual of the energy account over the work W of the platens or grips, taken as "
+                           "at least 1 % of its largest value, over all samples. Limit: a sound test stays below a "
+                           "thousandth; a time step that is too long does not."});
   if (loaded) {
     record.checks.push_back({"equilibrium", imbalance, imbalance_limit, imbalance <= imbalance_limit,
-                             "Difference between the stresses at the two ends, root mean square of the samples up to "
-                             "the peak, over the peak stress."});
+                             "Root mean square difference of the stresses at the two ends up to the peak, over the "
+                             "peak stress. Limit: a tenth of the tolerance of published strengths, so that it does not "
+                             "matter at which end the strength is read."});
     add_rate_check(record, settings, c);
   }
 
   if (confining > 0) {
     record.checks.push_back(
         {"servo", servo, servo_limit, servo <= servo_limit,
-         "Largest departure of the confining pressure from its set value, as a share of it, over all "
-         "samples to the end of the test."});
+         "Largest departure of the confining pressure from its set value, over that value, over all samples to the end "
+         "of the test. Limit: below the 3 % by which another seed moves the strength."});
   }
 
   add_specimen_tables(record, specimen, settings);

@@ -39,7 +39,7 @@ dem::StudyListener progress_listener(dem::ProgressPrinter& progress) {
   dem::StudyListener listener;
   listener.begin = [&](const std::string& id, int number, int total, const std::string& why) {
     progress.begin(id, number);
-    progress.say(fmt::format("{} ({}/{}): simulated, {}", id, number, total, why));
+    progress.say(fmt::format("{} ({}/{}): starting, {}", id, number, total, why));
   };
   listener.progress = [&](const std::string& id, const dem::Progress& now) { progress.update(id, now); };
   listener.note = [&](const std::string& note) { progress.say(note); };

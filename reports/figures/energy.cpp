@@ -61,7 +61,7 @@ render::Chart ledger_chart(const dem::Table& history, const std::string& x_colum
     base = band.high;
     chart.bands.push_back(std::move(band));
   }
-  chart.series.push_back({.label = "Work of the platens",
+  chart.series.push_back({.label = "Work of the boundary",
                           .x = x,
                           .y = scaled(work, unit.first),
                           .colour = {0, 0, 0},
@@ -125,9 +125,6 @@ std::string shares_alt(const dem::Table& history) {
 FigureContent energy_figure(const StudyResult& study, std::string_view test, const std::vector<SeriesCase>& cases,
                             const std::string& x_column, const std::string& x_title, double x_factor) {
   FigureContent content;
-  content.statement =
-      "The paper gives no energies. The account is kept because a simulation whose energies do not add up "
-      "cannot be trusted.";
   if (auto missing = missing_cases(study, test)) content.panels.push_back(*missing);
   double most = 0;
   std::vector<const SeriesCase*> kept;

@@ -69,8 +69,7 @@ std::string trend_words(const std::vector<SeriesCase>& cases, const ValueOf& val
   const std::string interval =
       fmt::format("95 % interval {} to {}, p = {}", number(fit->slope.low, 2), number(fit->slope.high, 2),
                   fit->p_value < 0.001 ? "0.001 or less" : number(fit->p_value, 2));
-  if (fit->p_value > 0.05)
-    return fmt::format("has no trend beyond its scatter: slope {}{} ({})", number(slope, 2), of, interval);
+  if (fit->p_value > 0.05) return fmt::format("shows no clear trend: slope {}{} ({})", number(slope, 2), of, interval);
   return fmt::format("{} by {}{} ({})", slope < 0 ? "falls" : "rises", number(std::abs(slope), 2), of, interval);
 }
 

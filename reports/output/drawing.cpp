@@ -162,7 +162,13 @@ void clear(const std::filesystem::path& folder) {
 FigureContent content_of(const StudyResult& study, const Figure& figure, DrawnFigure& drawn) {
   try {
     FigureContent content = figure.make(study);
-    if (study.of_a_paper) drawn.statement = content.statement;
+    if (study.of_a_paper) {
+      drawn.mirrors = figure.source;
+      drawn.statement = content.statement;
+      drawn.rows = content.rows;
+      drawn.agreement = content.agreement;
+      drawn.expected = content.expected;
+    }
     drawn.finding = content.finding;
     return content;
   } catch (const std::out_of_range& missing) {
@@ -272,6 +278,8 @@ Drawings draw_figures(const StudyResult& study, const ChosenFigures& chosen, con
     DrawnFigure drawn{.figure = figure};
     FigureContent content = content_of(study, *figure, drawn);
     if (chosen.whole_model && std::ranges::all_of(content.panels, is_note)) continue;
+    const bool nothing = content.panels.empty() && content.finding.empty() && drawn.problem.empty();
+    if (nothing && options.only.empty()) continue;
     drawn.number = static_cast<int>(made.figures.size()) + 1;
     made.figures.push_back(std::move(drawn));
     contents.push_back(std::move(content));

@@ -13,6 +13,7 @@
 #include "reports/page/page.h"
 #include "reports/published/papers.h"
 #include "reports/published/published.h"
+#include "reports/published/standing.h"
 #include "reports/text.h"
 
 namespace reports {
@@ -33,13 +34,14 @@ ReportOutcome make_report(StudyResult study, const ReportOptions& options, const
   study.published = published_numbers(study, options.assets / "papers");
   const auto chosen = chosen_figures(study, options.only);
   const Comparisons comparisons = compare(study, options.assets / "papers");
-  const Drawings drawings = draw_figures(study, chosen, options, canvas);
+  Drawings drawings = draw_figures(study, chosen, options, canvas);
+  for (DrawnFigure& figure : drawings.figures) set_standing(figure, comparisons, study.scenario->scale());
   const std::vector<DrawnFigure>& drawn = drawings.figures;
 
   ReportOutcome outcome;
   outcome.checks_held = all_held(study);
-  outcome.published_all_met =
-      std::ranges::none_of(comparisons.rows, [](const Comparison& row) { return row.verdict == Verdict::missed; });
+  outcome.verdicts = comparisons.tally();
+  if (!comparisons.rows.empty()) outcome.verdicts_text = tally_text(outcome.verdicts, comparisons.scale);
   const auto written = [&](const char* name, const auto& write) {
     if (options.stopped()) throw dem::Interrupted{};
     const std::filesystem::path path = options.folder / name;

@@ -10,12 +10,14 @@
 #include "reports/figure.h"
 #include "reports/options.h"
 #include "reports/output/drawing.h"
+#include "reports/published/verdict.h"
 
 namespace reports {
 
 struct ReportOutcome {
   bool checks_held = true;                   ///< every case has a record and every check of every case held
-  bool published_all_met = true;             ///< no comparison was missed (those that could not be made do not count)
+  Tally verdicts;                            ///< of the published numbers
+  std::string verdicts_text;                 ///< the same in words; "" where nothing is published
   std::vector<std::filesystem::path> files;  ///< the pages: report.html, report.pdf, summary.json
 };
 

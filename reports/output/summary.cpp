@@ -96,14 +96,28 @@ Json comparison_json(const Comparison& row) {
             {"deviation", or_null(row.deviation)},
             {"tolerance", or_null(row.tolerance)},
             {"verdict", verdict_word(row.verdict)},
+            {"role", role_word(row.role)},
+            {"of", row.of},
+            {"scale", row.scale},
             {"unit", row.unit},
             {"relative", row.relative}};
   if (row.estimate && row.estimate->has_interval()) {
-    if (row.p_value) json["slope"] = plain(row.estimate->value);
+    if (row.kind == "trend") json["slope"] = plain(row.estimate->value);
+    if (row.kind == "greater") json["difference"] = plain(row.estimate->value);
     json["interval"] = {plain(row.estimate->low), plain(row.estimate->high)};
   }
   if (row.p_value && std::isfinite(*row.p_value)) json["p_value"] = plain(*row.p_value);
   return json;
+}
+
+Json tally_json(const Tally& counts) {
+  return {{"met", counts.met},
+          {"missed", counts.missed},
+          {"undecided", counts.undecided},
+          {"not_judged", counts.not_judged},
+          {"not_computed", counts.not_computed},
+          {"fitted", counts.fitted},
+          {"theory", counts.theory}};
 }
 
 }  // namespace
@@ -112,8 +126,9 @@ std::string summary_json(const StudyResult& study, const Comparisons& comparison
                          const std::vector<DrawnFigure>& figures) {
   Json json{{"format", summary_format},         {"scenario", study.scenario->name()},
             {"scale", study.scenario->scale()}, {"quantities", quantities_json(study)},
-            {"cases", Json::array()},           {"comparisons", Json::array()},
-            {"checks", Json::array()},          {"figures", Json::array()}};
+            {"cases", Json::array()},           {"verdicts", tally_json(comparisons.tally())},
+            {"comparisons", Json::array()},     {"checks", Json::array()},
+            {"figures", Json::array()}};
   for (const CaseResult& result : study.cases) {
     json["cases"].push_back(case_json(result));
     if (!result.record) continue;

@@ -8,6 +8,7 @@
 
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
+#include "reports/page/abbreviations.h"
 #include "reports/page/citations.h"
 #include "reports/page/downloads.h"
 #include "reports/page/page_parts.h"
@@ -28,6 +29,17 @@ Json asset(const std::filesystem::path& file) {
   }
 }
 
+/// Those that are not about the paper's rock, where another one is studied.
+Json about(const StudyResult& study, const Json& entries) {
+  Json kept = Json::array();
+  for (Json one : entries) {
+    if (one.contains("rock") && !study.of_a_paper) continue;
+    one.erase("rock");
+    kept.push_back(std::move(one));
+  }
+  return kept;
+}
+
 // A list of objects of texts, as it is.
 PageData list_of(const Json& items) {
   PageData list{PageData::type::list};
@@ -37,6 +49,23 @@ PageData list_of(const Json& items) {
     list.push_back(entry);
   }
   return list;
+}
+
+// What a reader meets before the figures and in them.
+std::string texts_of(const StudyResult& study, const Comparisons& comparisons,
+                     const std::vector<DrawnFigure>& figures) {
+  std::string text;
+  const auto add = [&](std::string_view more) { text += std::string(more) + "\n"; };
+  for (const CaseResult& one : study.cases) add(case_label(study, one));
+  for (const Comparison& row : comparisons.rows) add(row.quantity + " " + row.statement);
+  for (const DrawnFigure& figure : figures) {
+    add(figure.statement + " " + figure.finding);
+    for (const DrawnPanel& panel : figure.panels) {
+      add(panel.caption + " " + panel.label);
+      for (const std::string& head : panel.table.head) add(head);
+    }
+  }
+  return text;
 }
 
 /// Words of a comment that no line holds are cut: to break one of 20,000 letters takes WeasyPrint minutes.
@@ -89,10 +118,10 @@ void set_diagnostics(PageData& data, const StudyResult& study) {
   data.set("inner", inner);
 }
 
-void set_citations(PageData& data, const dem::Scenario& scenario, const ReportOptions& options) {
+void set_citations(PageData& data, const StudyResult& study, const ReportOptions& options) {
   std::vector<Json> declared{asset(options.assets / "page" / "citation.json")};
-  for (const Paper& paper : papers_of(scenario.model(), options.assets / "papers")) {
-    for (const Json& one : asset(paper.folder / "citations.json")) declared.push_back(one);
+  for (const Paper& paper : papers_of(study.scenario->model(), options.assets / "papers")) {
+    for (const Json& one : about(study, asset(paper.folder / "citations.json"))) declared.push_back(one);
   }
   PageData list{PageData::type::list};
   std::string entries;
@@ -146,7 +175,7 @@ std::string page(const StudyResult& study, const Comparisons& comparisons, const
   }
   Json choices = Json::array();
   for (const Paper& paper : papers_of(scenario.model(), options.assets / "papers")) {
-    for (const Json& one : asset(paper.folder / "choices.json")) choices.push_back(one);
+    for (const Json& one : about(study, asset(paper.folder / "choices.json"))) choices.push_back(one);
   }
   PageData data = title_data(study, options);
   data.set("running",
@@ -155,12 +184,23 @@ std::string page(const StudyResult& study, const Comparisons& comparisons, const
   data.set("cases", cases_data(study));
   data.set("findings", findings_data(study, comparisons, figures));
   data.set("results", results_data(study, false));
+  PageData abbreviations{PageData::type::list};
+  const auto used = abbreviations_in(texts_of(study, comparisons, figures));
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    PageData one;
+    one.set("symbol", std::string(used[i].symbol));
+    one.set("meaning", std::string(used[i].meaning));
+    one.set("after", i + 1 == used.size() ? "." : "; ");
+    abbreviations.push_back(one);
+  }
+  data.set("abbreviations", abbreviations);
+  data.set("has_abbreviations", !used.empty());
   data.set("published", comparisons_data(comparisons));
   data.set("figures", figures_data(figures, images == Images::embedded ? options.folder : std::filesystem::path()));
   set_diagnostics(data, study);
   data.set("notes", notes_data(study));
   data.set("choices", list_of(choices));
-  set_citations(data, scenario, options);
+  set_citations(data, study, options);
   set_again(data, scenario, options.again);
   data.set("since", images == Images::embedded ? options.since_reference.shown : options.since_reference.printed);
   return pattern.render(data);

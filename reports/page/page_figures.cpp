@@ -211,12 +211,15 @@ PageData figures_data(const std::vector<DrawnFigure>& figures, const std::filesy
     data.set("figure_id", std::string(figure.figure->id));
     data.set("figure_number", std::to_string(figure.number));
     data.set("figure_title", std::string(figure.figure->title));
-    data.set("source", std::string(figure.figure->source));
-    data.set("has_source", !figure.figure->source.empty());
+    data.set("source", figure.mirrors);
+    data.set("has_source", !figure.mirrors.empty());
     data.set("statement", figure.statement);
     data.set("has_statement", !figure.statement.empty());
-    data.set("finding", figure.finding);
-    data.set("has_finding", !figure.finding.empty());
+    data.set("says_who", figure.expected ? "Expected." : "Published.");
+    const std::string ours =
+        figure.standing + (figure.standing.empty() || figure.finding.empty() ? "" : " ") + figure.finding;
+    data.set("finding", ours);
+    data.set("has_finding", !ours.empty());
     data.set("problem", figure.problem);
     data.set("has_problem", !figure.problem.empty());
     data.set("panel_rows", rows_data(figure, folder));

@@ -39,11 +39,17 @@ std::vector<std::pair<std::string, std::vector<const CaseResult*>>> by_test(cons
 
 using analysis::Repeats;  // a column of the results
 
-/// In its shown unit, without it.
-std::string shown_result(const dem::Quantity& quantity, double value) {
+/// In its shown unit, without it; in powers of ten where another value of its row needs them.
+std::string shown_result(const dem::Quantity& quantity, double value, bool powers = false) {
   if (!std::isfinite(value)) return "–";
   if (quantity.kind == dem::QuantityKind::count && std::floor(value) == value) return count(value);
-  return number(quantity.factor * value, quantity.digits);
+  return powers ? scientific(quantity.factor * value, quantity.digits)
+                : number(quantity.factor * value, quantity.digits);
+}
+
+/// "46.794 × 10⁶ N/m", "206.8 MPa".
+std::string with_unit(const std::string& amount, const std::string& unit) {
+  return unit.empty() ? amount : amount + (unit.starts_with("10") ? " × " : " ") + unit;
 }
 
 std::string specimen_text(const StudyResult& study) {
@@ -63,12 +69,11 @@ std::string specimen_text(const StudyResult& study) {
 }
 
 std::string published_text(const Comparison& row) {
-  const std::string tail = row.unit.empty() ? "" : " " + row.unit;
   if (const auto* text = std::get_if<std::string>(&row.published)) return *text;
   if (const auto* range = std::get_if<std::pair<double, double>>(&row.published)) {
-    return shortest(range->first) + " to " + shortest(range->second) + tail;
+    return with_unit(shortest(range->first) + " to " + shortest(range->second), row.unit);
   }
-  return shortest(std::get<double>(row.published)) + tail;
+  return with_unit(shortest(std::get<double>(row.published)), row.unit);
 }
 
 // Three significant digits, or as many as the published number has.
@@ -82,7 +87,15 @@ std::string computed_text(const Comparison& row) {
         static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return c >= '0' && c <= '9'; }));
     if (std::abs(*published) >= 1) digits = std::max(digits, figures);
   }
-  return number(std::get<double>(*row.computed), static_cast<int>(digits)) + (row.unit.empty() ? "" : " " + row.unit);
+  return with_unit(number(std::get<double>(*row.computed), static_cast<int>(digits)), row.unit);
+}
+
+std::string joined_notes(const std::vector<std::string>& notes) {
+  std::vector<std::string> said;
+  for (const std::string& note : notes) {
+    if (!note.empty()) said.push_back(note);
+  }
+  return joined(said, " ");
 }
 
 // Of a share of something, "%" becomes points.
@@ -91,13 +104,13 @@ std::string difference_unit(const std::string& unit) { return unit == "%" ? "poi
 std::string deviation_text(const Comparison& row) {
   if (!row.deviation) return "–";
   if (row.relative) return with_sign(fixed(100 * *row.deviation, 1)) + " %";
-  return with_sign(number(*row.deviation, 2)) + (row.unit.empty() ? "" : " " + difference_unit(row.unit));
+  return with_unit(with_sign(number(*row.deviation, 2)), difference_unit(row.unit));
 }
 
 std::string tolerance_text(const Comparison& row) {
-  if (!row.tolerance) return row.kind == "trend" ? (row.by_interval ? "by interval" : "by sign") : "–";
+  if (!row.tolerance) return row.estimate && row.estimate->has_interval() ? "by interval" : "–";
   if (row.relative) return "± " + shortest(100 * *row.tolerance) + " %";
-  return "± " + shortest(*row.tolerance) + (row.unit.empty() ? "" : " " + difference_unit(row.unit));
+  return with_unit("± " + shortest(*row.tolerance), difference_unit(row.unit));
 }
 
 double last_finite(std::span<const double> values) {
@@ -130,6 +143,13 @@ std::optional<PageData> ledger_table(const StudyResult& study, const std::vector
     row.set("strong", strong);
     rows.push_back(row);
   };
+  // Decimals for the largest value, so that a column can be added up; what is less shows as nearly nothing.
+  const double most = factor * largest;
+  const int places = most > 0 ? std::max(0, 4 - static_cast<int>(std::floor(std::log10(most)))) : 4;
+  const auto cell = [&](double value) {
+    const bool nearly_nothing = value != 0 && std::abs(factor * value) < 0.5 * std::pow(10.0, -places);
+    return nearly_nothing ? "≈ 0" : value == 0 ? "0" : fixed(factor * value, places);
+  };
   std::vector<double> left(kept.size(), 0);  // work less all the rest
   bool residual = false;
   for (const analysis::LedgerTerm& term : analysis::ledger_terms(kept.front()->record->table("history"))) {
@@ -138,7 +158,7 @@ std::optional<PageData> ledger_table(const StudyResult& study, const std::vector
     for (std::size_t i = 0; i < kept.size(); ++i) {
       const dem::Table& history = kept[i]->record->table("history");
       const double value = history.has(term.column) ? last_finite(history.real(term.column)) : 0;
-      values.push_back(history.has(term.column) ? number(factor * value, 4) : "–");
+      values.push_back(history.has(term.column) ? cell(value) : "–");
       some = some || value != 0;
       left[i] += term.role == analysis::LedgerTerm::Role::work    ? value
                  : term.role == analysis::LedgerTerm::Role::share ? -value
@@ -150,7 +170,7 @@ std::optional<PageData> ledger_table(const StudyResult& study, const std::vector
   }
   if (!residual) {
     std::vector<std::string> values;
-    for (const double value : left) values.push_back(number(factor * value, 4));
+    for (const double value : left) values.push_back(cell(value));
     add("Residual", values, true);
   }
   PageData table;
@@ -231,6 +251,14 @@ PageData cases_data(const StudyResult& study) {
         const std::string part = said ? "" : parameter_words(dem::find_parameter(study.parameters, id), value);
         if (!part.empty()) parameters.push_back(part);
       }
+      if (parameters.empty()) {  // nothing sets the cases apart: what all have alike
+        for (const auto& [id, value] : result.parameters) {
+          if (id == "test" || id == "seed") continue;
+          const dem::Parameter& parameter = dem::find_parameter(study.parameters, id);
+          const std::string part = parameter.symbol.empty() ? "" : parameter_words(parameter, value);
+          if (!part.empty()) parameters.push_back(part);
+        }
+      }
       if (repeats.size() > 1) {
         std::vector<std::string> seeds;
         for (const CaseResult* one : repeats) {
@@ -280,69 +308,134 @@ std::string checks_summary(const StudyResult& study) {
   return fmt::format("{} of {} checks did not hold: {}.", broken_checks, checks, joined(parts, "; "));
 }
 
+namespace {
+
+// "Missed most: UCS, AR 1 (−20.0 %) and ...": what is missed, the largest relative deviations first.
+std::string missed_text(const Comparisons& comparisons) {
+  constexpr std::size_t named = 4;
+  std::vector<const Comparison*> missed;
+  for (const Comparison& row : comparisons.rows) {
+    if (row.role == Role::number && row.verdict == Verdict::missed) missed.push_back(&row);
+  }
+  if (missed.empty()) return {};
+  // In tolerances: comparable among units.
+  std::ranges::stable_sort(missed, std::greater{}, [](const Comparison* row) {
+    return row->deviation && row->tolerance && *row->tolerance > 0 ? std::abs(*row->deviation) / *row->tolerance : 0.0;
+  });
+  std::vector<std::string> parts;
+  for (const Comparison* row : missed) {
+    if (parts.size() == named) break;
+    parts.push_back(row->quantity + (row->deviation ? " (" + deviation_text(*row) + ")" : ""));
+  }
+  const bool all = parts.size() == missed.size();
+  return (all ? "Missed: " : "Missed by most: ") + joined(parts, "; ") + ".";
+}
+
+}  // namespace
+
+namespace {
+
+std::string lower(std::string text) {
+  if (text.size() > 1 && text[0] >= 'A' && text[0] <= 'Z' && text[1] >= 'a' && text[1] <= 'z')
+    text[0] = static_cast<char>(text[0] - 'A' + 'a');
+  return text;
+}
+
+// What the first case of each test gave: "Compression, AR 1: Young’s modulus 68.2 GPa, ...; direct tension: ..."
+std::string headline(const StudyResult& study) {
+  constexpr std::size_t most = 3;  // results of a test
+  std::vector<std::string> tests;
+  for (const auto& [test, group] : by_test(study)) {
+    const dem::Record& record = *group.front()->record;
+    std::vector<std::string> said;
+    for (const auto& [id, value] : record.results) {
+      const dem::Quantity& quantity = dem::find_quantity(study.quantities, id);
+      if (quantity.kind != dem::QuantityKind::result || quantity.family() || quantity.of_size || !std::isfinite(value))
+        continue;
+      if (said.size() == most) break;
+      const std::string_view unit = quantity.shown_unit();
+      said.push_back(lower(std::string(quantity.name)) + " " + shown_result(quantity, value) +
+                     (unit.empty() ? "" : " " + std::string(unit)));
+    }
+    if (said.empty()) continue;
+    const std::string label = case_label(study, *group.front());
+    const bool alone = label == capital(words(group.front()->id));
+    tests.push_back((tests.empty() ? capital(test) : test) + (alone ? "" : ", " + label) + ": " + listed(said));
+  }
+  return tests.empty() ? "" : joined(tests, "; ") + ".";
+}
+
+// Which figures agree with what is published, which do not.
+PageData agreement_parts(const std::vector<DrawnFigure>& figures) {
+  PageData parts = new_list();
+  for (const auto& [agreement, what] : {std::pair{Agreement::agrees, "In agreement with what is published:"},
+                                        {Agreement::disagrees, "In disagreement:"},
+                                        {Agreement::undecided, "Undecided:"}}) {
+    std::vector<const DrawnFigure*> those;
+    for (const DrawnFigure& figure : figures) {
+      if (figure.agreement == agreement && !figure.expected) those.push_back(&figure);
+    }
+    if (those.empty()) continue;
+    PageData links = new_list();
+    for (std::size_t i = 0; i < those.size(); ++i) {
+      PageData link;
+      link.set("before", i == 0 ? "" : i + 1 == those.size() ? " and " : ", ");
+      link.set("figure_id", std::string(those[i]->figure->id));
+      link.set("figure_number", std::to_string(those[i]->number));
+      links.push_back(link);
+    }
+    PageData part;
+    part.set("what", what);
+    part.set("links", links);
+    parts.push_back(part);
+  }
+  return parts;
+}
+
+}  // namespace
+
 PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
                        const std::vector<DrawnFigure>& figures) {
   PageData list = new_list();
-  const auto add = [&](const std::string& text, const std::string& state, const DrawnFigure* figure = nullptr) {
+  const auto add = [&](const std::string& text, const std::string& state, PageData parts = new_list()) {
     PageData item;
     item.set("text", text);
     item.set("state", state);
-    item.set("has_figure", figure != nullptr);
-    if (figure) {
-      item.set("figure_id", std::string(figure->figure->id));
-      item.set("figure_number", std::to_string(figure->number));
-    }
+    item.set("parts", parts);
     list.push_back(item);
   };
   for (const CaseResult& result : study.cases) {
     if (!result.record && !result.error.empty()) add("Case " + result.id + " failed: " + result.error, "bad");
   }
-  if (const std::string summary = checks_summary(study); !summary.empty())
-    add(summary, checks_held(study) ? "good" : "bad");
-  const auto number_of = [&](Verdict verdict) {
-    return std::ranges::count(comparisons.rows, verdict, &Comparison::verdict);
-  };
+  const std::string results = headline(study);
+  if (!results.empty()) add(results, "plain");
   if (!comparisons.rows.empty()) {
-    std::vector<std::string> missed;
-    for (const Comparison& row : comparisons.rows) {
-      if (row.verdict != Verdict::missed) continue;
-      missed.push_back(row.quantity + (row.deviation ? " (" + deviation_text(row) + ")" : ""));
-    }
-    std::string text =
-        fmt::format("{} of {} published numbers and trends are met", number_of(Verdict::met), comparisons.rows.size());
-    if (number_of(Verdict::not_computed) > 0)
-      text += fmt::format(", {} could not be computed", number_of(Verdict::not_computed));
-    constexpr std::size_t named = 6;
-    if (!missed.empty()) {
-      const std::size_t others = missed.size() > named ? missed.size() - named : 0;
-      text += fmt::format(", {} missed: ", missed.size());
-      missed.resize(missed.size() - others);
-      text += joined(missed, "; ") + (others > 0 ? fmt::format("; and {} more in the table", others) : "");
-    }
-    text += ".";
-    if (comparisons.scale != study.scenario->scale()) {
-      text += " The published numbers belong to the scale “" + comparisons.scale + "”.";
-    }
-    add(text, missed.empty() ? "good" : "bad");
+    const Tally counts = comparisons.tally();
+    add(joined_notes({tally_text(counts, comparisons.scale), missed_text(comparisons)}), counts.missed > 0 ? "bad"
+                                                                                         : counts.met > 0  ? "good"
+                                                                                                           : "plain");
   }
-  for (const DrawnFigure& figure : figures) {
-    if (!figure.finding.empty()) add(figure.finding, "plain", &figure);
+  if (std::ranges::any_of(figures, [](const DrawnFigure& f) { return f.agreement && !f.expected; })) {
+    const bool judged = comparisons.scale.empty() || comparisons.scale == study.scenario->scale();
+    add(judged ? "" : "At this scale:", "plain", agreement_parts(figures));
   }
+  if (const std::string checks = checks_summary(study); !checks.empty())
+    add(checks, checks_held(study) ? "good" : "bad");
   return list;
 }
 
 namespace {
 
 // The value of one case, or mean and standard deviation of several.
-std::string result_text(const Repeats& column, std::string_view id, const dem::Quantity& quantity) {
+std::string result_text(const Repeats& column, std::string_view id, const dem::Quantity& quantity, bool powers) {
   std::vector<double> values;
   for (const CaseResult* result : column) {
     if (const double* value = result->record->find_result(id)) values.push_back(*value);
   }
   const analysis::Spread spread = analysis::spread(values);
   if (spread.count == 0) return "–";
-  if (spread.deviation == 0) return shown_result(quantity, spread.mean);
-  return shown_result(quantity, spread.mean) + " ± " + shown_result(quantity, spread.deviation);
+  if (spread.deviation == 0) return shown_result(quantity, spread.mean, powers);
+  return shown_result(quantity, spread.mean, powers) + " ± " + shown_result(quantity, spread.deviation, powers);
 }
 
 // Of those that figures do not show: families have as many members as the specimen has groups.
@@ -380,7 +473,11 @@ PageData results_data(const StudyResult& study, bool diagnostics) {
       for (const std::string& id : ids) {
         const dem::Quantity& quantity = dem::find_quantity(study.quantities, id);
         std::vector<std::string> values;
-        for (const Repeats& column : shown) values.push_back(result_text(column, id, quantity));
+        const bool powers = std::ranges::any_of(group, [&](const CaseResult* one) {
+          const double* value = one->record->find_result(id);
+          return value && needs_powers(quantity.factor * *value);
+        });
+        for (const Repeats& column : shown) values.push_back(result_text(column, id, quantity, powers));
         rows.push_back(table_row(axis_title(quantity), values));
       }
       PageData table;
@@ -393,30 +490,75 @@ PageData results_data(const StudyResult& study, bool diagnostics) {
   return tables;
 }
 
+namespace {
+
+// What a row is, where it does not count as met or missed.
+std::string role_text(const Comparison& row, const std::vector<Comparison>& rows) {
+  switch (row.role) {
+    case Role::fitted:
+      return "Fitted: " + row.why;
+    case Role::theory:
+      return "Theory: " + row.why;
+    case Role::follows: {
+      std::vector<std::string> names;
+      for (const std::string& id : row.of) {
+        const auto other = std::ranges::find(rows, id, &Comparison::id);
+        if (other != rows.end()) names.push_back(other->quantity);
+      }
+      return "Not counted: follows from " + (names.empty() ? "others" : listed(names)) + ".";
+    }
+    case Role::sensitivity:
+    case Role::number:
+      break;
+  }
+  return {};
+}
+
+std::string verdict_class(const Comparison& row) {
+  const std::string state = row.verdict == Verdict::met         ? "met"
+                            : row.verdict == Verdict::missed    ? "missed"
+                            : row.verdict == Verdict::undecided ? "undecided"
+                                                                : "open";
+  return row.role == Role::number ? state : state + " apart " + std::string(role_word(row.role));
+}
+
+}  // namespace
+
 PageData comparisons_data(const Comparisons& comparisons) {
   if (comparisons.rows.empty()) return PageData{PageData::type::list};
   PageData rows = new_list();
   for (const Comparison& row : comparisons.rows) {
+    const bool reading = row.role == Role::sensitivity;
+    const std::string role = role_text(row, comparisons.rows);
     PageData item;
-    item.set("quantity", row.quantity);
-    item.set("source", row.source);
-    item.set("statement", row.statement);
-    item.set("has_statement", !row.statement.empty());
-    item.set("published_value", published_text(row));
+    item.set("quantity", reading ? "— " + row.reading : row.quantity);
+    item.set("source", reading ? "" : row.source);
+    item.set("statement", joined_notes({row.statement, role}));
+    item.set("has_statement", !row.statement.empty() || !role.empty());
+    item.set("published_value", reading ? "" : published_text(row));
     item.set("published_detail", row.published_detail);
-    item.set("has_published_detail", !row.published_detail.empty());
-    item.set("computed_value", computed_text(row));
-    item.set("detail", row.detail);
-    item.set("has_detail", !row.detail.empty());
+    item.set("has_published_detail", !reading && !row.published_detail.empty());
+    // One against the other: both numbers say more than the word.
+    const std::size_t both =
+        row.kind == "greater" && row.computed ? std::min(row.detail.find("; "), row.detail.size()) : 0;
+    const std::string detail = row.detail.substr(both == 0 ? 0 : std::min(both + 2, row.detail.size()));
+    item.set("computed_value", both == 0 ? computed_text(row) : row.detail.substr(0, both));
+    item.set("detail", detail);
+    item.set("has_detail", !detail.empty());
     item.set("deviation", deviation_text(row));
-    item.set("tolerance", tolerance_text(row));
-    item.set("verdict", std::string(verdict_word(row.verdict)));
-    item.set("verdict_class", row.verdict == Verdict::met ? "met" : row.verdict == Verdict::missed ? "missed" : "open");
+    item.set("tolerance", reading ? "" : tolerance_text(row));
+    // Another reading has no verdict of its own.
+    item.set("verdict", reading ? "" : std::string(verdict_word(row.verdict)));
+    item.set("has_verdict", !reading);
+    item.set("role", row.role == Role::number || reading ? "" : std::string(role_word(row.role)));
+    item.set("has_role", row.role != Role::number && !reading);
+    item.set("verdict_class", verdict_class(row));
     rows.push_back(item);
   }
   PageData block;
   block.set("paper", comparisons.paper);
   block.set("published_scale", comparisons.scale);
+  block.set("counts", tally_text(comparisons.tally(), comparisons.scale));
   block.set("rows", rows);
   PageData list = new_list();
   list.push_back(block);
@@ -455,8 +597,12 @@ PageData checks_data(const StudyResult& study) {
     item.set("meaning", check.meaning);
     item.set("has_meaning", check.id != last);
     last = check.id;
-    item.set("value", number(check.value, 2));
-    item.set("limit", number(check.limit, 2));
+    const bool powers = std::ranges::any_of(all, [&](const auto& other) {
+      return other.second->id == check.id && (needs_powers(other.second->value) || needs_powers(other.second->limit));
+    });
+    const auto amount = [&](double value) { return powers ? scientific(value, 2) : number(value, 2); };
+    item.set("value", amount(check.value));
+    item.set("limit", amount(check.limit));
     item.set("verdict", check.held ? "held" : "broken");
     item.set("verdict_class", check.held ? "met" : "missed");
     list.push_back(item);

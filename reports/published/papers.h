@@ -2,7 +2,8 @@
 // The papers that the program mirrors: a folder each in assets/papers with
 //   paper.json      {"model", "paper": how it is cited, "scale": of its numbers, "rock": the one that it is about, if it names one}
 //   published.json  its numbers (reports/published/published.h); may be missing
-//   choices.json, citations.json  what the report says of the model's choices and sources
+//   choices.json, citations.json  what the report says of the model's choices and sources; those with "rock" are about
+//                   the paper's rock and left out for others
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -10,6 +10,7 @@
 #include "engine/analysis/statistics.h"
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
+#include "reports/published/entries.h"
 #include "reports/published/papers.h"
 #include "reports/published/terms.h"
 #include "reports/text.h"
@@ -22,42 +23,54 @@ using Json = nlohmann::json;
 // Counts as counts, measurements with four digits.
 std::string short_number(double value) { return std::floor(value) == value ? count(value) : number(value, 4); }
 
-void compare_value(const Terms& terms, const Json& entry, Comparison& row) {
-  const Json& term = entry.at("of");
-  double ours = 0;
-  if (term.contains("fit")) {
-    const analysis::Estimate estimate = terms.fitted(term);
-    ours = estimate.value * term.value("times", 1.0);
-    row.estimate = estimate;
-    row.detail = estimate.has_interval()
-                     ? fmt::format("95 % interval {} to {}", number(estimate.low), number(estimate.high))
-                     : "as many points as unknowns: no interval";
-  } else {
-    const auto values = terms.values(term);
-    const auto [mean, deviation, count] = analysis::spread(values);
-    ours = mean;
-    if (count > 1) row.detail = fmt::format("mean of {} seeds, standard deviation {}", count, number(deviation, 2));
-  }
-  row.computed = ours;
-  const auto* range = std::get_if<std::pair<double, double>>(&row.published);
-  const double near = range ? std::clamp(ours, range->first, range->second) : std::get<double>(row.published);
-  row.deviation = row.relative ? (ours - near) / near : ours - near;
-  row.verdict = std::abs(*row.deviation) <= *row.tolerance ? Verdict::met : Verdict::missed;
+std::string interval_text(const analysis::Estimate& estimate, int digits = 3) {
+  return fmt::format("95 % interval {} to {}", number(estimate.low, digits), number(estimate.high, digits));
 }
 
-// The sign of the least-squares slope; detail lists the values, means of repeats, and tells how sure the slope is. Steps that
-// the scenario has no case for are left out, as long as two are left.
-void compare_trend(const Terms& terms, const Json& entry, Comparison& row) {
+std::string seeds_text(std::size_t seeds) { return seeds == 1 ? "one seed" : fmt::format("{} seeds", seeds); }
+
+Band band_of(const Comparison& row) {
+  const auto* range = std::get_if<std::pair<double, double>>(&row.published);
+  const auto [low, high] = range ? *range : std::pair(std::get<double>(row.published), std::get<double>(row.published));
+  const auto reach = [&](double end) { return row.relative ? *row.tolerance * std::abs(end) : *row.tolerance; };
+  return {low - reach(low), high + reach(high)};
+}
+
+void compare_value(const Terms& terms, const Json& term, Comparison& row) {
+  analysis::Estimate ours;
+  if (term.contains("fit")) {
+    ours = terms.fitted(term);
+    const double times = term.value("times", 1.0);
+    for (double* part : {&ours.value, &ours.low, &ours.high}) *part *= times;
+    row.detail = ours.has_interval() ? interval_text(ours) : "as many points as unknowns: no interval";
+  } else {
+    const auto values = terms.values(term);
+    ours = analysis::mean_of(values);
+    const auto [mean, deviation, count] = analysis::spread(values);
+    if (count > 1) row.detail = fmt::format("mean of {} seeds, standard deviation {}", count, number(deviation, 2));
+    if (ours.has_interval()) row.detail += "; " + interval_text(ours);
+  }
+  row.estimate = ours;
+  row.computed = ours.value;
+  const auto* range = std::get_if<std::pair<double, double>>(&row.published);
+  const double near = range ? std::clamp(ours.value, range->first, range->second) : std::get<double>(row.published);
+  row.deviation = row.relative ? (ours.value - near) / near : ours.value - near;
+  row.outcome = judge_value(ours.value, ours, band_of(row));
+}
+
+// The least-squares slope; detail lists the values, means of repeats, and tells how sure the slope is. Steps that the scenario
+// has no case for are left out, as long as two are left.
+void compare_trend(const Terms& terms, const Json& over, const Json& term, Comparison& row) {
   std::vector<double> ours, x, y;
   std::vector<std::string> absent;
-  const auto axis = entry.at("over").items().begin();
+  const auto axis = over.items().begin();
   for (const Json& step : axis.value()) {
     const dem::Parameters at = {{axis.key(), step.get<double>()}};
-    if (!terms.has_cases(entry.at("of"), at)) {
+    if (!terms.has_cases(term, at)) {
       absent.push_back(shortest(step.get<double>()));
       continue;
     }
-    const auto values = terms.values(entry.at("of"), at);
+    const auto values = terms.values(term, at);
     ours.push_back(analysis::spread(values).mean);
     for (const double value : values) {
       x.push_back(step.get<double>());
@@ -70,30 +83,38 @@ void compare_trend(const Terms& terms, const Json& entry, Comparison& row) {
   }
   const auto line = analysis::fit_line(x, y);
   if (!line) throw NotComputed{"a trend needs two different steps"};
-  const double slope = line->slope.value;
-  row.computed = std::string(slope > 0 ? "rises" : slope < 0 ? "falls" : "stays level");
+  const analysis::Estimate& slope = line->slope;
+  row.outcome = judge_sign(slope, std::get<std::string>(row.published) == "rises" ? 1 : -1, terms.by_chance());
+  const std::string word = slope.value > 0 ? "rises" : slope.value < 0 ? "falls" : "stays level";
+  row.computed = row.outcome == Verdict::undecided && slope.has_interval() ? "no clear trend" : word;
   const bool steady = std::ranges::is_sorted(ours) || std::ranges::is_sorted(ours, std::greater{});
   std::vector<std::string> shown;
   for (const double value : ours) shown.push_back(short_number(value));
   row.detail = joined(shown, " → ") + (steady ? "" : ", not at every step");
   if (!absent.empty()) row.detail += "; not run: " + joined(absent, ", ");
-  if (line->slope.has_interval()) {
-    row.detail += fmt::format("; slope {} (95 % interval {} to {}, p = {})", number(slope, 2),
-                              number(line->slope.low, 2), number(line->slope.high, 2), number(line->p_value, 2));
+  if (slope.has_interval()) {
+    row.detail += fmt::format("; slope {} ({}, p = {})", number(slope.value, 2), interval_text(slope, 2),
+                              number(line->p_value, 2));
+  } else if (terms.by_chance()) {
+    row.detail += "; two points have no interval";
   }
-  row.estimate = line->slope;
+  row.estimate = slope;
   row.p_value = line->p_value;
-  row.by_interval = x.size() > ours.size() && line->slope.has_interval();
-  if (row.by_interval && line->slope.low <= 0 && line->slope.high >= 0) row.computed = std::string("lost in scatter");
-  row.verdict = *row.computed == row.published ? Verdict::met : Verdict::missed;
 }
 
-void compare_greater(const Terms& terms, const Json& entry, Comparison& row) {
-  const double ours = terms.values(entry.at("of")).front();
-  const double other = terms.values(entry.at("than")).front();
-  row.computed = std::string(ours > other ? "greater" : ours < other ? "smaller" : "equal");
-  row.detail = short_number(ours) + " against " + short_number(other);
-  row.verdict = ours > other ? Verdict::met : Verdict::missed;
+void compare_greater(const Terms& terms, const Json& of, const Json& than, Comparison& row) {
+  const auto values = terms.values({{"difference", {of, than}}});
+  const analysis::Estimate difference = analysis::mean_of(values);
+  row.estimate = difference;
+  row.outcome = judge_sign(difference, 1, terms.by_chance());
+  row.computed = std::string(difference.value > 0 ? "greater" : difference.value < 0 ? "smaller" : "equal");
+  row.detail = short_number(analysis::spread(terms.values(of)).mean) + " against " +
+               short_number(analysis::spread(terms.values(than)).mean);
+  if (difference.has_interval()) {
+    row.detail += fmt::format("; difference {} ({})", number(difference.value, 2), interval_text(difference, 2));
+  } else if (terms.by_chance()) {
+    row.detail += "; " + seeds_text(values.size()) + ": no interval";
+  }
 }
 
 Comparison described(const Json& entry) {
@@ -127,6 +148,8 @@ Comparison described(const Json& entry) {
 bool concerns(const StudyResult& study, const Terms& terms, const Json& entry) {
   const std::vector<std::string>& asked = study.scenario->texts("published");
   const auto topics = entry.at("topics").get<std::vector<std::string>>();
+  const std::string scale = entry.value("scale", "any");
+  if (scale != "any" && scale != study.scenario->scale()) return false;
   const auto named = [&](const std::string& topic) { return std::ranges::find(asked, topic) != asked.end(); };
   if (!asked.empty() && std::ranges::none_of(topics, named)) return false;
   if (!asked.empty() && !entry.value("optional", false)) return true;
@@ -139,22 +162,52 @@ bool concerns(const StudyResult& study, const Terms& terms, const Json& entry) {
          }) > 1;
 }
 
-void compare_entry(const StudyResult& study, const Terms& terms, const Json& entry, std::vector<Comparison>& rows) {
-  if (!concerns(study, terms, entry)) return;
-  Comparison row = described(entry);
+/// Compares a row with what `term` of the entry, or of another reading of it, gives.
+void evaluate(const StudyResult& study, const Terms& terms, const Json& entry, const Json& term, Comparison& row) {
+  const bool elsewhere = row.scale != "any" && row.scale != study.scenario->scale();
   try {
-    if (row.kind == "value")
-      compare_value(terms, entry, row);
-    else if (row.kind == "trend")
-      compare_trend(terms, entry, row);
-    else if (row.kind == "greater")
-      compare_greater(terms, entry, row);
-    else
-      throw dem::EnvironmentError("unknown kind '" + row.kind + "' of published number " + row.id);
+    if (row.kind == "value") {
+      compare_value(terms, term, row);
+    } else if (row.kind == "trend") {
+      compare_trend(terms, entry.at("over"), term, row);
+    } else {
+      compare_greater(terms, term, entry.at("than"), row);
+    }
+    row.verdict = elsewhere ? Verdict::not_judged : row.outcome;
+    if (elsewhere && row.kind == "value" && terms.of_size(term)) {
+      row.deviation.reset();
+      row.detail += std::string(row.detail.empty() ? "" : "; ") + "grows with the specimen: not compared at this scale";
+    }
   } catch (const NotComputed& reason) {
     row.detail = reason.why;
   }
-  rows.push_back(std::move(row));
+}
+
+void compare_entry(const StudyResult& study, const Terms& terms, const Paper& paper, const Json& entry,
+                   std::vector<Comparison>& rows) {
+  if (!concerns(study, terms, entry)) return;
+  Comparison row = described(entry);
+  row.scale = entry.value("scale", paper.scale);
+  const Declared declared = declared_role(entry);
+  row.role = declared.role;
+  row.why = declared.why;
+  row.of = declared.of;
+  std::vector<Comparison> all = {row};
+  evaluate(study, terms, entry, entry.at("of"), all.front());
+  for (const Json& reading : entry.value("readings", Json::array())) {
+    const Json& term = reading.at("of");
+    if (row.kind == "value" && !terms.has_cases(term)) continue;
+    Comparison other = row;
+    other.id = reading.at("id").get<std::string>();
+    other.reading = reading.at("reading").get<std::string>();
+    other.role = Role::sensitivity;
+    other.why.clear();
+    other.of = {row.id};
+    other.statement.clear();
+    evaluate(study, terms, entry, term, other);
+    all.push_back(std::move(other));
+  }
+  for (Comparison& one : all) rows.push_back(std::move(one));
 }
 
 /// Gives the numbers of every paper that the study is about to `use`.
@@ -169,7 +222,9 @@ void read_papers(const StudyResult& study, const std::filesystem::path& folder, 
                                    "/published.json cannot be read: " + error.what());
     };
     try {
-      use(paper, Json::parse(dem::read_file(file)));
+      const Json published = Json::parse(dem::read_file(file));
+      check_entries(published);
+      use(paper, published);
     } catch (const Json::exception& error) {
       throw broken(error);
     } catch (const std::logic_error& error) {  // a result, parameter or derived value that is not declared
@@ -180,16 +235,10 @@ void read_papers(const StudyResult& study, const std::filesystem::path& folder, 
 
 }  // namespace
 
-std::string_view verdict_word(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::met:
-      return "met";
-    case Verdict::missed:
-      return "missed";
-    case Verdict::not_computed:
-      break;
-  }
-  return "not computed";
+Tally Comparisons::tally() const {
+  Tally counts;
+  for (const Comparison& row : rows) counts.add(row.role, row.verdict);
+  return counts;
 }
 
 Comparisons compare(const StudyResult& study, const std::filesystem::path& papers) {
@@ -197,7 +246,7 @@ Comparisons compare(const StudyResult& study, const std::filesystem::path& paper
   const Terms terms(study);
   read_papers(study, papers, [&](const Paper& paper, const Json& published) {
     const std::size_t before = all.rows.size();
-    for (const Json& entry : published.at("numbers")) compare_entry(study, terms, entry, all.rows);
+    for (const Json& entry : published.at("numbers")) compare_entry(study, terms, paper, entry, all.rows);
     if (all.rows.size() == before) return;
     all.paper += (all.paper.empty() ? "" : "; ") + paper.name;
     all.scale = paper.scale;

@@ -8,10 +8,15 @@
 //      "greater": "of": TERM, "than": TERM: ours must be greater, as published
 // TERM: see reports/published/terms.h. Which numbers concern a scenario: those with a topic of its key `published`; without
 // that key every number whose cases the scenario has.
-// Where a scenario repeats its cases with other seeds, values are means, and a trend must stand out of their scatter: the 95 %
-// interval of its slope must not hold zero. With one seed the sign of the slope decides.
-// "optional": true leaves the number out where the scenario has not the case. "quoted" are numbers of the paper that figures
-// show and nothing of ours is compared with.
+// Where a scenario repeats its cases with other seeds, values are means. How they are judged: reports/published/verdict.h.
+// A number has one entry and one verdict. What is not counted, or counted apart, is declared:
+//   "readings": [{"id", "reading": "seeds × 0.675", "of": TERM}]  rows under the entry's, where the scenario has their cases
+//   "follows": ["id", ...]   follows from those rows
+//   "fitted": "why"          a choice of the program was fitted to it
+//   "theory": "why"          a formula beside a formula
+// "scale": "high" if the number belongs to another scale than its paper's (it is shown at that one only), "any" if the scale
+// does not matter. "optional": true leaves the number out where the scenario has not the case. "quoted" are numbers of the
+// paper that figures show and nothing of ours is compared with.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,34 +26,40 @@
 
 #include "engine/analysis/fits.h"
 #include "reports/figure.h"
+#include "reports/published/verdict.h"
 
 namespace reports {
-
-enum class Verdict { met, missed, not_computed };
-std::string_view verdict_word(Verdict verdict);  ///< "met", "missed", "not computed"
 
 /// A number, a range, or a word ("falls").
 using Amount = std::variant<double, std::pair<double, double>, std::string>;
 
 struct Comparison {
   std::string id, source, quantity, unit, statement, kind;
+  Role role = Role::number;
+  std::string why;              ///< of a fitted row or one of theory: see above
+  std::vector<std::string> of;  ///< rows that it follows from, or the one that it is another reading of
+  std::string reading;          ///< of a row of role sensitivity
+  std::string scale;            ///< of the published number; "any"
   Amount published;
   std::optional<Amount> computed;
   std::optional<double> deviation;  ///< relative, or absolute in `unit`; from the nearer end of a range
   std::optional<double> tolerance;
-  bool by_interval = false;  ///< a trend over several seeds: it must stand out of their scatter
-  bool relative = false;     ///< deviation and tolerance are fractions of the published value
+  bool relative = false;  ///< deviation and tolerance are fractions of the published value
   Verdict verdict = Verdict::not_computed;
-  std::optional<analysis::Estimate> estimate;  ///< of a fit, the value with its interval; of a trend, its slope
-  std::optional<double> p_value;               ///< of a trend's slope
-  std::string published_detail;                ///< the published values that make a trend: "206.8 → 201.3 → 198.4"
-  std::string detail;                          ///< what trends are made of, or why nothing could be computed
+  Verdict outcome = Verdict::not_computed;  ///< what the verdict would be if the scale were the published one
+  /// Ours with its interval, where it has one: a value, a slope, a difference.
+  std::optional<analysis::Estimate> estimate;
+  std::optional<double> p_value;  ///< of a trend's slope
+  std::string published_detail;   ///< the published values that make a trend: "206.8 → 201.3 → 198.4"
+  std::string detail;             ///< what trends are made of, or why nothing could be computed
 };
 
 struct Comparisons {
-  std::string paper;  ///< "Zhao et al. 2021"; several joined
-  std::string scale;  ///< at which the published numbers belong
-  std::vector<Comparison> rows;
+  std::string paper;             ///< "Zhao et al. 2021"; several joined
+  std::string scale;             ///< at which the published numbers belong
+  std::vector<Comparison> rows;  ///< other readings stand behind the row that they belong to
+
+  [[nodiscard]] Tally tally() const;
 };
 
 /// All numbers that concern the scenario of the study. A case that failed, was left out or lacks the result gives

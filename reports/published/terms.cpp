@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <stdexcept>
 
 #include "engine/core/errors.h"
@@ -35,11 +36,14 @@ std::optional<double> seed_of(const CaseResult& one) {
   return number ? std::optional(*number) : std::nullopt;
 }
 
-// "AR 2, σ₃ 10 MPa"
-std::string case_words(const dem::Parameters& named) {
+// "compression, AR 2, σ₃ 10 MPa"
+std::string case_words(std::span<const dem::Parameter> declared, const dem::Parameters& named) {
   std::vector<std::string> words_of;
   for (const auto& [id, value] : named) {
-    words_of.push_back((id == "test" ? "" : words(id) + " ") + parameter_text(value));
+    const std::string text =
+        id == "test" ? parameter_text(value) : parameter_words(dem::find_parameter(declared, id), value);
+    if (text.empty()) continue;
+    words_of.insert(id == "test" ? words_of.begin() : words_of.end(), text);
   }
   return joined(words_of, ", ");
 }
@@ -91,6 +95,15 @@ bool Terms::has_cases(const Json& term, const dem::Parameters& at) const {
   return !of_a_case(term) || !cases(term, at).empty();
 }
 
+bool Terms::of_size(const Json& term) const {
+  if (const Json* parts = parts_of(term)) {
+    const auto grows = [&](const Json& part) { return of_size(part); };
+    if (term.contains("quotient")) return grows(parts->at(0)) != grows(parts->at(1));
+    return std::ranges::any_of(*parts, grows);
+  }
+  return term.contains("of") && dem::find_quantity(study_.quantities, term.at("of").get<std::string>()).of_size;
+}
+
 analysis::Estimate Terms::fitted(const Json& term) const {
   const std::string name = term.at("fit").get<std::string>(), mineral = term.value("mineral", "");
   const auto found = fitted_value(study_, name, mineral);
@@ -111,7 +124,8 @@ double Terms::value(const Json& term, const dem::Parameters& at, std::optional<d
   } else {
     const auto all = cases(term, at);
     const auto one = std::ranges::find_if(all, [&](const CaseResult* c) { return !seed || seed_of(*c) == seed; });
-    if (one == all.end()) throw NotComputed{"no case of " + case_words(named(term, at)) + " in this scenario"};
+    if (one == all.end())
+      throw NotComputed{"this scenario has no case: " + case_words(study_.parameters, named(term, at))};
     const CaseResult& result = **one;
     if (!result.record) throw NotComputed{"case " + result.id + (result.error.empty() ? " was not run" : " failed")};
     if (term.contains("derived")) {

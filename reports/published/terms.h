@@ -33,6 +33,13 @@ class Terms {
   /// Throws NotComputed; nlohmann::json::exception or std::out_of_range for a term that means nothing.
   [[nodiscard]] std::vector<double> values(const nlohmann::json& term, const dem::Parameters& at = {}) const;
 
+  /// Whether the value grows with the specimen, by what its results are declared to be (dem::Quantity::of_size). The quotient
+  /// of two that do does not.
+  [[nodiscard]] bool of_size(const nlohmann::json& term) const;
+
+  /// Whether the cases of the study have seeds: another one would give another value.
+  [[nodiscard]] bool by_chance() const { return !seeds_.empty(); }
+
   /// The fit of a term {"fit": ...}.
   [[nodiscard]] analysis::Estimate fitted(const nlohmann::json& term) const;
 

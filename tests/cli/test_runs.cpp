@@ -87,7 +87,7 @@ TEST_CASE("a run leaves what it promises, a second one keeps it, and both give t
   CAPTURE(first.err);
   REQUIRE(first.code == due_code(folder.path()));
   CHECK(has(first.err, id + " ("));
-  CHECK(has(first.err, "simulated, no record"));
+  CHECK(has(first.err, "starting, no record yet"));
   const fs::path out = output(folder.path());
   for (const char* name : {"report.html", "summary.json", "run.json", "figures", "data"}) {
     CAPTURE(name);
@@ -104,7 +104,7 @@ TEST_CASE("a run leaves what it promises, a second one keeps it, and both give t
   const test::Outcome second = run(folder.path(), {"--threads", "1"});
   CHECK(second.code == due_code(folder.path()));
   CHECK(has(second.err, id + ": kept"));
-  CHECK_FALSE(has(second.err, "simulated"));
+  CHECK_FALSE(has(second.err, "starting"));
   CHECK(dem::read_file(out / "report.html") == page);
   CHECK(dem::read_file(out / "summary.json") == summary);
 
@@ -117,7 +117,7 @@ TEST_CASE("a run leaves what it promises, a second one keeps it, and both give t
 
   const test::Outcome other = run(folder.path(), {"--seed", "2", "--threads", "1"});
   CHECK(other.code == due_code(folder.path()));
-  CHECK(has(other.err, "simulated, seed: 1 -> 2"));
+  CHECK(has(other.err, "starting, seed: 1 -> 2"));
 }
 
 TEST_CASE("a run that is stopped by a signal says so, and goes on to the same bytes") {
@@ -158,8 +158,8 @@ TEST_CASE("cases side by side: the same summary for any number of threads, and a
     const test::Outcome outcome = run_two(folder.path(), threads);
     CAPTURE(outcome.err);
     REQUIRE(outcome.code == due_code_of(folder.path() / report));
-    CHECK(has(outcome.err, "direct_tension_ar_2_dip_0 (1/2): simulated"));
-    CHECK(has(outcome.err, "direct_tension_ar_2_dip_90 (2/2): simulated"));
+    CHECK(has(outcome.err, "direct_tension_ar_2_dip_0 (1/2): starting"));
+    CHECK(has(outcome.err, "direct_tension_ar_2_dip_90 (2/2): starting"));
     CHECK(whole_files(folder.path() / "out" / "specimens") == 2);
     if (summary.empty()) {
       summary = dem::read_file(folder.path() / report / "summary.json");
@@ -181,8 +181,8 @@ TEST_CASE("cases side by side: the same summary for any number of threads, and a
   }
   const test::Outcome resumed = run_two(folder.path(), "2");
   CHECK(resumed.code == due_code_of(folder.path() / report));
-  CHECK(has(resumed.err, "direct_tension_ar_2_dip_0 (1/2): simulated, no record; goes on from its checkpoint"));
-  CHECK(has(resumed.err, "direct_tension_ar_2_dip_90 (2/2): simulated, no record; goes on from its checkpoint"));
+  CHECK(has(resumed.err, "direct_tension_ar_2_dip_0 (1/2): starting, no record yet; goes on from its checkpoint"));
+  CHECK(has(resumed.err, "direct_tension_ar_2_dip_90 (2/2): starting, no record yet; goes on from its checkpoint"));
   CHECK(dem::read_file(folder.path() / report / "summary.json") == summary);
 }
 

@@ -211,7 +211,7 @@ TEST_CASE("what to cite stands there as BibTeX too, that can be saved") {
 TEST_CASE("the page names figures, sources, verdicts and residuals") {
   const std::string html = file("report.html");
   for (const char* text : {"Mirrors Zhao et al. 2021, Fig. 14", "Mirrors Zhao et al. 2021, Fig. 15a",
-                           "Tensile strength, AR 1", "<span>met</span>", "Energy ledger", "Packing pressure",
+                           "Tensile strength, AR 1", "<span>not judged</span>", "Energy ledger", "Packing pressure",
                            "10.1016/j.ijrmms.2021.104971", "--scale draft", "[scales.draft]", "A made-up study"}) {
     CAPTURE(text);
     CHECK(html.find(text) != std::string::npos);
@@ -237,6 +237,32 @@ TEST_CASE("the PDF has text, embedded fonts, tags and a sane number of pages") {
   CHECK(std::stoi(pages[1]) >= 10);
   CHECK(std::stoi(pages[1]) <= 30);
   CHECK(text.output.find(whole().folder.string()) == std::string::npos);
+}
+
+TEST_CASE("the page of another rock speaks of that rock") {
+  const test::Scratch scratch;
+  const dem::Scenario scenario = synthetic::scenario(scratch.path(), "my_rock",
+                                                     "figures = [\"specimen\", \"progressive_failure\", "
+                                                     "\"confinement_envelopes\"]\n")
+                                     .with("rock", std::string("my rock"))
+                                     .with("title", std::string("A rock of my own"));
+  const synthetic::Options small{.diameter = 4e-3, .height = 8e-3, .samples = 40};
+  const std::vector<dem::Record> records = {synthetic::compression(1, small), synthetic::direct_tension(1, small)};
+  auto options = options_for(scratch / "out");
+  options.pdf = false;
+  const auto outcome = reports::make_report(synthetic::study_of(scenario, records), options, canvas, {});
+  CHECK(outcome.verdicts_text.empty());
+  std::string html = dem::read_file(scratch / "out/report.html");
+  html.resize(html.find("id=\"scenario\""));  // the text of the scenario itself
+  for (const char* absent : {"Mirrors", "Published.", "Lac du Bonnet", "too few pressures", "no fit", "the granite"}) {
+    CAPTURE(absent);
+    CHECK(html.find(absent) == std::string::npos);
+  }
+  CHECK(html.find("id=\"progressive_failure\"") != std::string::npos);
+  CHECK(html.find("id=\"confinement_envelopes\"") == std::string::npos);  // one pressure makes no envelope
+  const std::size_t row = html.find("compression_ar_1</th>");
+  REQUIRE(row != std::string::npos);
+  CHECK(html.substr(row, 200).find("AR 1") != std::string::npos);  // its parameters
 }
 
 TEST_CASE("a failed case is shown in its figures' place and the rest of the report is made") {

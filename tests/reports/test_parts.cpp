@@ -174,7 +174,7 @@ TEST_CASE("summary.json has the promised structure") {
   const auto comparisons = reports::compare(result, std::filesystem::path(DEM_SOURCE_DIR) / "assets/papers");
   const std::string text = reports::summary_json(result, comparisons, {});
   const auto json = nlohmann::json::parse(text);
-  CHECK(json.at("format") == 2);
+  CHECK(json.at("format") == 3);
   CHECK(json.at("quantities").at("young_modulus").at("unit") == "GPa");
   CHECK(json["quantities"].at("contact_share.*").at("kind") == "result");
   CHECK_FALSE(json["quantities"].contains("gap_share"));
@@ -191,10 +191,15 @@ TEST_CASE("summary.json has the promised structure") {
   CHECK(json["cases"][5].at("error") == "the solution blew up");
   CHECK(json.at("checks")[0].at("id") == "compression_ar_1.energy_residual");
   for (const char* key : {"value", "limit", "held"}) CHECK(json["checks"][0].contains(key));
+  const auto counts = comparisons.tally();
+  CHECK(json.at("verdicts").at("not_judged") == counts.not_judged);
+  CHECK(json["verdicts"].at("met") == 0);
   REQUIRE_FALSE(json.at("comparisons").empty());
   for (const auto& row : json["comparisons"]) {
-    for (const char* key : {"id", "source", "published", "computed", "deviation", "tolerance", "verdict"})
+    for (const char* key :
+         {"id", "source", "published", "computed", "deviation", "tolerance", "verdict", "role", "of", "scale"})
       CHECK(row.contains(key));
+    CHECK(row.at("verdict") != "met");  // the published numbers belong to another scale
   }
   CHECK(text == reports::summary_json(study.result(), comparisons, {}));
 }

@@ -187,6 +187,17 @@ TEST_CASE("every published term asks for a result that its test gives, of a case
     for (const reports::Paper& paper : reports::papers_of(std::string(model.name), source / "assets/papers")) {
       for (const Json& entry : numbers_of(paper)) {
         CAPTURE(entry.at("id").get<std::string>());
+        for (const Json& reading : entry.value("readings", Json::array())) {
+          CAPTURE(reading.at("id").get<std::string>());
+          for (const auto& [id, test] : reports::results_of(reading.at("of"))) {
+            CHECK(dem::find_quantity(model.quantities(), id).given_by(test));
+          }
+          CHECK(std::ranges::any_of(studies, [&](const dem::Study& study) {
+            if (study.model->name != model.name) return false;
+            const auto result = without_records(study);
+            return reports::Terms(result).has_cases(reading.at("of"));
+          }));
+        }
         each_term(entry, [&](const Json& term, const std::vector<dem::Parameters>& places) {
           for (const auto& [id, test] : reports::results_of(term)) {
             CAPTURE(id);
@@ -204,6 +215,26 @@ TEST_CASE("every published term asks for a result that its test gives, of a case
             }
           }
         });
+      }
+    }
+  }
+}
+
+TEST_CASE("what stands under “Published” has its place in a source, and the numbers that it stands on are there") {
+  for (const reports::Figure& figure : reports::figures()) {
+    CAPTURE(figure.id);
+    std::set<std::string> ids;
+    for (const reports::Paper& paper : reports::papers_of(std::string(figure.model), source / "assets/papers")) {
+      for (const Json& entry : numbers_of(paper)) ids.insert(entry.at("id").get<std::string>());
+    }
+    for (const fs::path& file : scenarios()) {
+      const dem::Study study = study_at(file, "smoke");
+      if (study.model->name != figure.model) continue;
+      const reports::FigureContent content = figure.make(without_records(study));
+      if (!content.statement.empty() && !content.expected) CHECK_FALSE(figure.source.empty());
+      for (const std::string& id : content.rows) {
+        CAPTURE(id);
+        CHECK(ids.contains(id));
       }
     }
   }

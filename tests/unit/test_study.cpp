@@ -229,7 +229,7 @@ TEST_CASE("a finished case is kept; a second call simulates nothing") {
   Bench bench;
   const auto first = bench.run();
   CHECK(states(first) == std::vector{simulated, simulated, simulated});
-  CHECK(bench.why.at("count_1") == "no record");
+  CHECK(bench.why.at("count_1") == "no record yet");
   const std::string bytes = dem::read_file(bench.record("count_2"));
   const auto second = bench.run();
   CHECK(states(second) == std::vector{kept, kept, kept});
@@ -273,7 +273,7 @@ TEST_CASE("what changed is simulated again, and said in the declared unit") {
   }
   SUBCASE("a sweep that grows: only the new case") {
     CHECK(states(bench.run({"sweep.value=[1, 2, 3, 4]"})) == std::vector{kept, kept, kept, simulated});
-    CHECK(bench.why == std::map<std::string, std::string>{{"count_4", "no record"}});
+    CHECK(bench.why == std::map<std::string, std::string>{{"count_4", "no record yet"}});
   }
   SUBCASE("a key that no case depends on, a touched file: nothing") {
     fs::last_write_time(bench.folder / "study.toml", fs::file_time_type::clock::now());

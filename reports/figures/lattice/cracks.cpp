@@ -179,7 +179,7 @@ Front front_of(const dem::Record& r) {
 }
 
 std::string speed_text(double speed) {
-  return std::isfinite(speed) ? number(speed, 3) + " m/s" : "not measured, too few bonds";
+  return std::isfinite(speed) ? number(speed, 3) + " m/s" : "not measured (too few bonds)";
 }
 
 }  // namespace
@@ -187,8 +187,9 @@ std::string speed_text(double speed) {
 FigureContent crack_maps(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "In tension the block breaks in two by opening alone; in compression bonds open first, then the block fails in "
-      "sliding mode.";
+      "In tension the block breaks in two by opening, without slipping; in compression bonds open first, and the block "
+      "fails in sliding mode.";
+  content.rows = {"opening_before_sliding", "frictional_heat_springs"};
   std::vector<std::string> said;
   const dem::Record* pressed = main_record(study, "compression");
   if (pressed && !has_failure(*pressed)) {
@@ -215,7 +216,7 @@ FigureContent crack_maps(const StudyResult& study) {
     content.panels.push_back(by_time(*r, "tension_time_" + planes, d1, d2, "Tension, planes: " + planes, oblique,
                                      "Bonds that opened, by time since D₁."));
     content.panels.push_back(by_time(*r, "tension_side_" + planes, d1, d2, "Tension, planes: " + planes, along_y,
-                                     "The same, seen along y."));
+                                     "Bonds that opened, seen along y."));
     content.panels.push_back(halves(*r, "tension_halves_" + planes, "Tension, planes: " + planes));
     said.push_back(fmt::format("in tension with {} planes {} bonds opened and {} slid", planes,
                                count(r->value(quantity::cracks_opening)), count(r->value(quantity::cracks_sliding))));
@@ -229,7 +230,8 @@ FigureContent crack_maps(const StudyResult& study) {
 FigureContent crack_front(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "Breaking heat rises for 2.83 × 10⁻⁶ s while the crack crosses 1.2 cm: the opening crack runs at about 4240 m/s.";
+      "Breaking heat rises for 2.83 × 10⁻⁶ s in a block 1.2 cm wide: the opening crack runs at about 4240 m/s.";
+  content.rows = {"crack_duration_springs", "crack_speed_springs"};
   std::vector<std::string> said;
   for (const dem::Record* r : records_of(study, "tension")) {
     if (!has_failure(*r)) {
@@ -257,8 +259,8 @@ FigureContent crack_front(const StudyResult& study) {
          .alt = fmt::format("The farthest opening runs at {}.", speed_text(f.speed)),
          .content = chart,
          .per_row = 1});
-    said.push_back(fmt::format("{} planes: front {}; width over the time from first to last opening {} m/s", planes,
-                               speed_text(f.speed), number(r->value_or_nan(quantity::crack_speed), 3)));
+    said.push_back(fmt::format("{} planes: {} by the crack front, {} m/s by the width over the time from D₁ to D₂",
+                               planes, speed_text(f.speed), number(r->value_or_nan(quantity::crack_speed), 3)));
   }
   if (!said.empty()) content.finding = sentence(said);
   return content;

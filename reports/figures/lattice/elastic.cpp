@@ -65,9 +65,9 @@ MeanError mean_error(const std::vector<const dem::Record*>& records) {
 FigureContent elastic_constants(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "At a strain of −10⁻⁶ the single unit has the rock’s E and ν; errors grow with strain. Over blocks of many units "
-      "and "
-      "strains from −10⁻⁶ to −10⁻³ they average about 0.6 %.";
+      "At a strain of −10⁻⁶ E and ν of the single unit are those of quartzite; errors grow with strain. For blocks of "
+      "several units they average about 0.6 % over strains from −10⁻⁶ to −10⁻³.";
+  content.rows = {"unit_young_modulus", "unit_poisson_ratio", "mean_error_young_modulus", "mean_error_poisson_ratio"};
   if (auto missing = missing_cases(study, "elastic")) content.panels.push_back(*missing);
   const auto records = by_size(study, "elastic");
   if (records.empty()) return content;
@@ -93,9 +93,9 @@ FigureContent elastic_constants(const StudyResult& study) {
        .per_row = 1});
   const MeanError error = mean_error(records);
   if (error.n > 0) {
-    content.finding =
-        fmt::format("Over {} blocks of more than one unit and all strains the mean error of E is {} %, that of ν {} %.",
-                    error.n, number(error.e, 2), number(error.nu, 2));
+    content.finding = fmt::format(
+        "Over {} of more than one unit and all strains, the mean error of E is {} % and that of ν {} %.",
+        error.n == 1 ? "one block" : fmt::format("{} blocks", error.n), number(error.e, 2), number(error.nu, 2));
   }
   if (small.value(quantity::particles) == 4) {
     content.finding +=
@@ -109,10 +109,8 @@ FigureContent elastic_constants(const StudyResult& study) {
 
 FigureContent elastic_choices(const StudyResult& study) {
   FigureContent content;
-  content.statement =
-      "The paper leaves open how the end elements are bound to the planes, the area of the section and the gauge "
-      "length, and "
-      "finds the modulus “a bit lower” along other directions.";
+  content.statement = "The modulus is a bit lower along other directions (Section 6).";
+  content.rows = {"modulus_lower_along_x", "modulus_lower_along_y"};
   const dem::Record* main = main_record(study, "elastic");
   if (!main) return content;
   const dem::Scenario& s = *study.scenario;
@@ -166,9 +164,9 @@ FigureContent elastic_choices(const StudyResult& study) {
                             .content = table,
                             .per_row = 1});
   content.finding =
-      "Choices are made by these numbers alone: springs Kₙ to the planes, the box of element centres and the distance "
-      "of end layers give "
-      "the published errors of about 0.6 % over the sizes; other sections are off by several percent.";
+      "Springs Kₙ at the planes, the box of element centres and the distance of the end layers were chosen because "
+      "they "
+      "give the published mean errors of about 0.6 %; other sections are off by several percent.";
   return content;
 }
 

@@ -111,9 +111,9 @@ render::Chart heats(const dem::Record& r, double from, double to, double zero,
 FigureContent stress_strain(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "Stress rises in a straight line to A₁, where opening cracks form and stress drops; it climbs again to the "
-      "strength A₂, where the "
-      "block fails by sliding. Some bonds at the boundary fail before C_open is reached (inset).";
+      "Stress rises linearly to A₁, where opening cracks form and stress falls; it rises again to the strength A₂, "
+      "where the block fails in sliding mode. Some bonds at the boundary fail before C_open is reached (inset).";
+  content.rows = {"opening_before_sliding", "opening_below_theory", "drop_at_a1"};
   if (auto missing = missing_cases(study, "compression")) content.panels.push_back(*missing);
   const dem::Record* r = main_record(study, "compression");
   if (!r) return content;
@@ -181,9 +181,10 @@ FigureContent stress_strain(const StudyResult& study) {
 FigureContent energy_compression(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "Elastic energy follows the stress, drops a little at A₁ and falls almost to zero between A₂ and A₃; mechanical "
-      "energy and heat "
-      "together always equal the work. Failure takes about 10⁻⁴ s; kinetic energy (inset) stays far below the elastic.";
+      "Elastic energy follows the stress, falls a little at A₁ and almost to zero between A₂ and A₃; mechanical energy "
+      "and heat together always equal the work. Failure takes about 10⁻⁴ s, with much less kinetic than elastic energy "
+      "(inset).";
+  content.rows = {"elastic_left", "failure_duration"};
   const dem::Record* r = main_record(study, "compression");
   if (!r) return content;
   if (!has_failure(*r)) {
@@ -231,9 +232,9 @@ FigureContent energy_compression(const StudyResult& study) {
 FigureContent energy_tension(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "The block parts in two at 1.072 × 10⁻² s (B₁): elastic energy becomes breaking heat and kinetic energy, at most "
-      "16.2 % of the total, "
-      "which turns into viscous heat by B₂.";
+      "The block breaks in two at 1.072 × 10⁻² s (B₁): elastic energy becomes breaking heat and kinetic energy, at "
+      "most 16.2 % of the total, which has become viscous heat by B₂.";
+  content.rows = {"failure_time_springs", "kinetic_share_springs"};
   if (auto missing = missing_cases(study, "tension")) content.panels.push_back(*missing);
   std::vector<std::string> said;
   for (const dem::Record* r : records_of(study, "tension")) {
@@ -265,12 +266,12 @@ FigureContent energy_tension(const StudyResult& study) {
     content.panels.push_back(
         {.id = planes,
          .caption = fmt::format("Tension, planes: {}. The inset shows the failure.", planes),
-         .alt = fmt::format("The block parts at {} s; kinetic energy reaches {} % of the work.", number(m.d1, 4),
-                            number(100 * r->value_or_nan(quantity::kinetic_share), 3)),
+         .alt = fmt::format("The block breaks at {} × 10⁻² s; kinetic energy reaches {} % of the work.",
+                            number(1e2 * m.d1, 4), number(100 * r->value_or_nan(quantity::kinetic_share), 3)),
          .content = chart,
          .per_row = 1});
-    said.push_back(fmt::format("with {} planes it parts at {} s, kinetic share {} %", planes, number(m.d1, 4),
-                               number(100 * r->value_or_nan(quantity::kinetic_share), 3)));
+    said.push_back(fmt::format("with {} planes it breaks at {} × 10⁻² s, with a kinetic share of {} %", planes,
+                               number(1e2 * m.d1, 4), number(100 * r->value_or_nan(quantity::kinetic_share), 3)));
   }
   if (!said.empty()) content.finding = sentence(said);
   return content;
@@ -279,9 +280,9 @@ FigureContent energy_tension(const StudyResult& study) {
 FigureContent heat_compression(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "At failure in compression (C₁ to C₂) the breaking heat of the normal springs does not change, that of the shear "
-      "springs rises step "
-      "by step; frictional heat goes on after C₂.";
+      "At failure in compression (C₁ to C₂) the breaking heat of the normal springs does not change, while that of the "
+      "shear springs rises step by step; frictional heat still rises after C₂.";
+  content.rows = {"normal_heat_while_sliding"};
   const dem::Record* r = main_record(study, "compression");
   if (!r) return content;
   if (!has_failure(*r)) {
@@ -299,7 +300,7 @@ FigureContent heat_compression(const StudyResult& study) {
        .content = heats(*r, m.c1 - 0.3 * span, m.c2 + 1.5 * span, m.c1, {{m.c1, "C₁"}, {m.c2, "C₂"}}),
        .per_row = 1});
   content.finding = fmt::format(
-      "From C₁ to C₂ {} µs pass. Normal springs have {} % of the breaking heat of that time. {} % of all frictional "
+      "C₂ comes {} µs after C₁. Normal springs contribute {} % of the breaking heat in between. {} % of all frictional "
       "heat comes after C₂; "
       "{} % of the heat from C₁ to the end is viscous.",
       number(1e6 * (m.c2 - m.c1), 3), number(100 * r->value_or_nan(quantity::normal_share_of_sliding_heat), 2),
@@ -311,9 +312,9 @@ FigureContent heat_compression(const StudyResult& study) {
 FigureContent heat_tension(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "Breaking heat rises from D₁ to D₂, 2.83 × 10⁻⁶ s apart; viscous heat goes on rising after D₂, and its share is "
-      "larger than in "
-      "compression. Frictional heat is always zero.";
+      "Breaking heat rises from D₁ to D₂, 2.83 × 10⁻⁶ s later; viscous heat still rises after D₂, and its share of the "
+      "heat is greater than in compression. Frictional heat is always zero.";
+  content.rows = {"crack_duration_springs", "viscous_heat_after_springs", "frictional_heat_springs"};
   std::vector<std::string> said;
   for (const dem::Record* r : records_of(study, "tension")) {
     if (!has_failure(*r)) {
@@ -331,13 +332,13 @@ FigureContent heat_tension(const StudyResult& study) {
          .per_row = 1});
     std::string friction = r->has(quantity::friction_after_last_opening)
                                ? fmt::format(
-                                     "frictional heat begins {} µs {} the last of them and ends at {} % of the work, "
-                                     "where cracks close again",
+                                     "frictional heat begins {} µs {} the last opening and ends at {} % of the work, "
+                                     "as cracks close again",
                                      number(1e6 * std::abs(r->value_or_nan(quantity::friction_after_last_opening)), 3),
                                      r->value_or_nan(quantity::friction_after_last_opening) < 0 ? "before" : "after",
                                      number(100 * r->value(quantity::frictional_share), 2))
                                : std::string("no frictional heat at any time");
-    said.push_back(fmt::format("{} planes: bonds open for {} µs, {} % of the viscous heat comes later; {}", planes,
+    said.push_back(fmt::format("{} planes: D₁ to D₂ takes {} µs, {} % of the viscous heat comes later; {}", planes,
                                number(1e6 * (m.d2 - m.d1), 3),
                                number(100 * r->value_or_nan(quantity::viscous_share_after_parting), 3), friction));
   }
@@ -347,7 +348,7 @@ FigureContent heat_tension(const StudyResult& study) {
 
 FigureContent ledger(const StudyResult& study) {
   FigureContent content;
-  content.statement = "The sum of mechanical energy and heat is always equal to the work of the planes.";
+  content.statement = "The sum of mechanical energy and heat is always equal to the work of the external forces.";
   render::Chart chart;
   chart.x.title = "Share of the test’s time (%)";
   chart.left.title = "|Residual| / work";
@@ -388,6 +389,7 @@ FigureContent ledger(const StudyResult& study) {
        .alt = "The largest residual of all cases is " + number(worst, 2) + ", the limit 0.001.",
        .content = chart,
        .per_row = 1});
+  content.agreement = worst < 1e-3 ? Agreement::agrees : Agreement::disagrees;
   content.finding = "The largest residual of all cases is " + number(worst, 2) + " of the work; the limit is 10⁻³.";
   return content;
 }

@@ -144,9 +144,10 @@ std::string unfailed(const dem::Record& r, const Test& test, double drop) {
 FigureContent block_strengths(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "The single unit fails 0.011 % below Tᵤ and 1.73 % below Cᵤ. Blocks are weaker, on average by 8.89 % in tension "
-      "and 18.51 % in "
-      "compression, because cracks begin at the boundary, where elements have fewer bonds.";
+      "Tᵤ and Cᵤ of the single unit are 0.011 % and 1.73 % lower than those of quartzite. Blocks are weaker, on "
+      "average by 8.89 % in tension and 18.51 % in compression, because cracks form first around the boundaries.";
+  content.rows = {"unit_tensile_strength", "unit_compressive_strength", "mean_tensile_strength",
+                  "mean_compressive_strength"};
   for (const Test& test : {tension, compression}) {
     add_missing(content, study, {test.name});
     const auto all = by_size(study, test.name);
@@ -184,8 +185,10 @@ FigureContent block_strengths(const StudyResult& study) {
     if (!larger.empty())
       content.finding += fmt::format("With larger loading steps in {}: {}. ", test.name, joined(larger, ", "));
     if (n > 0) {
-      content.finding += fmt::format("Mean of {} blocks in {}: {} %{}. ", n, test.name, with_sign(number(mean, 3)),
-                                     published_words(study.published_value(test.published_mean), 4, ", over nine"));
+      content.finding +=
+          fmt::format("{} in {}: {} %{}. ", n == 1 ? std::string("One block") : fmt::format("Mean of {} blocks", n),
+                      test.name, with_sign(number(mean, 3)),
+                      published_words(study.published_value(test.published_mean), 4, ", the mean of nine"));
     }
   }
   return content;
@@ -193,10 +196,8 @@ FigureContent block_strengths(const StudyResult& study) {
 
 FigureContent strength_choices(const StudyResult& study) {
   FigureContent content;
-  content.statement =
-      "How the planes hold the end elements, whether both move, and the size of the loading step are not all given; "
-      "strengths along "
-      "other directions are “a bit lower”.";
+  content.statement = "The tensile strength is a bit lower along other directions (Section 6).";
+  content.rows = {"tension_lower_along_x", "tension_lower_along_y"};
   TextTable table{
       {"Test", "Elements", "Choice", "Strength (MPa)", "Against theory", "First drop (MPa)", "Ledger residual"}, {}};
   std::vector<std::string> nearest;  // choice, by test
@@ -233,7 +234,7 @@ FigureContent strength_choices(const StudyResult& study) {
   if (table.rows.empty()) return content;
   content.panels.push_back(
       {.id = "", .caption = "Strengths under other choices.", .alt = "", .content = table, .per_row = 1});
-  content.finding += nearest.empty() ? "" : "Nearest to the published mean of blocks: " + joined(nearest, "; ") + ".";
+  content.finding += nearest.empty() ? "" : "Closest to the published means: " + joined(nearest, "; ") + ".";
   return content;
 }
 

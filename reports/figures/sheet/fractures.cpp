@@ -33,7 +33,7 @@ Panel map_panel(const StudyResult& study, const dem::Record& r, double strain, i
   const auto n = crack_counts(r, strain);
   const std::string label = label_of(r, study);
   return {.id = r.case_id + "_" + part(strain),
-          .caption = fmt::format("{} at {}: {} broken springs inside grains (orange), {} between grains (dark blue).",
+          .caption = fmt::format("{} at {}: {} broken springs inside grains (orange), {} at boundaries (dark blue).",
                                  label == "this run" ? "Fractures" : "Fractures, " + label + ",", strain_words(strain),
                                  count(n[0]), count(n[1])),
           .alt = fmt::format("Map of {} broken springs over the outlines of grains.", count(n[0] + n[1])),
@@ -119,14 +119,14 @@ FigureContent fracture_maps(const StudyResult& study) {
   const dem::Record* r = main_record(study);
   if (!r) return content;
   const std::string test = r->text("test");
+  content.expected = true;
   content.statement =
-      test == "pure_shear"
-          ? "Under pure shear fractures run mainly along grain boundaries and parallel to the compression."
-      : test == "growth" ? "Around grains that increase in volume fractures open radially and link neighbouring grains."
-      : test == "extension"
-          ? "A competent layer in extension breaks by through-going tensile fractures at regular spacing."
-          : "A competent layer in compression breaks where springs are pulled across the compression; every break is "
-            "tension.";
+      test == "pure_shear" ? "Boundaries are half as strong as grains: under pure shear fractures run mainly along "
+                             "them, parallel to the "
+                             "compression."
+      : test == "growth" ? "Fractures open radially around grains that increase in volume and link neighbouring grains."
+      : test == "extension" ? "The stiff layer breaks by tension fractures through its whole thickness."
+                            : "Springs break only in tension, so that fractures open parallel to the compression.";
   for (const double strain : strains_of(*r))
     content.panels.push_back(map_panel(study, *r, strain, layered(*r) ? 1 : 2));
   if (!r->has(quantity::onset_strain)) {
@@ -134,7 +134,7 @@ FigureContent fracture_maps(const StudyResult& study) {
     return content;
   }
   content.finding =
-      fmt::format("{} springs broke, {} of them between grains; the first at a strain of {}.",
+      fmt::format("{} springs broke, {} of them at grain boundaries; the first at a strain of {}.",
                   count(r->value(quantity::cracks_intra_tension) + r->value(quantity::cracks_inter_tension)),
                   percent(between_share(*r), 0), strain_words(r->value_or_nan(quantity::onset_strain)));
   return content;
@@ -145,18 +145,18 @@ FigureContent rose_of_fractures(const StudyResult& study) {
   std::vector<std::string> said;
   for (const dem::Record* r : records_of(study)) {
     if (r->text("solver") != "converged" || !r->has(quantity::along_compression_share)) continue;
-    if (r->text("test") == "pure_shear")
-      content.statement = "Fractures in the polycrystal run parallel to the compression.";
+    content.expected = true;
+    content.statement = "Fractures run parallel to the compression.";
     const auto angles = trends_of(*r);
     if (angles.empty()) continue;
     const double share = r->value_or_nan(quantity::along_compression_share);
     const std::string label = label_of(*r, study);
     content.panels.push_back(
         {.id = r->case_id,
-         .caption = fmt::format("Trend of the fracture at each of {} broken springs, {}. Areas are counts; the outer "
-                                "circle is the fullest "
-                                "sector.",
-                                count(static_cast<double>(angles.size())), label),
+         .caption = fmt::format(
+             "Trend of the fracture at each of {} broken springs, {}. The area of a sector is its count; the outer "
+             "circle is that of the fullest sector.",
+             count(static_cast<double>(angles.size())), label),
          .alt = fmt::format("{} of the trends lie within 30° of the compression.", percent(share, 0)),
          .content =
              rose(angles, r->text("test") == "compression" ? 0.0 : std::numbers::pi / 2, "direction of compression"),
@@ -164,15 +164,15 @@ FigureContent rose_of_fractures(const StudyResult& study) {
     said.push_back(fmt::format("{}: {}", label, percent(share, 0)));
   }
   if (!said.empty()) {
-    content.finding =
-        "Share of trends within 30° of the compression (a third would be chance): " + joined(said, "; ") + ".";
+    content.finding = "Share of trends within 30° of the compression (by chance a third): " + joined(said, "; ") + ".";
   }
   return content;
 }
 
 FigureContent radial_fractures(const StudyResult& study) {
   FigureContent content;
-  content.statement = "Fractures around growing grains are radial.";
+  content.expected = true;
+  content.statement = "Fractures run radially from grains that increase in volume.";
   const dem::Record* r = main_record(study);
   if (!r) return content;
   if (r->text("test") != "growth") {
@@ -209,8 +209,8 @@ FigureContent radial_fractures(const StudyResult& study) {
        .alt = fmt::format("{} of the trends lie within 30° of the radius.", percent(share, 0)),
        .content = chart,
        .per_row = 1});
-  content.finding = fmt::format("{} of {} trends lie within 30° of the radius (a third would be chance).",
-                                percent(share, 0), count(static_cast<double>(angles.size())));
+  content.finding = fmt::format("{} of {} trends lie within 30° of the radius (by chance a third).", percent(share, 0),
+                                count(static_cast<double>(angles.size())));
   return content;
 }
 
@@ -223,10 +223,10 @@ FigureContent spacing(const StudyResult& study) {
         note_panel("", "Spacing of fractures through the layer.", "No fracture crosses the layer in this run."));
     return content;
   }
+  content.expected = true;
   content.statement =
-      "From the field: the spacing of through-going fractures falls with strain and comes to rest at a value set by "
-      "the "
-      "layer's thickness.";
+      "The spacing of fractures through a stiff layer falls with strain until it saturates at about the thickness of "
+      "the layer (Bai et al. 2000).";
   const dem::Table& h = r->table("history");
   render::Chart chart;
   chart.x.title = "Strain (%)";

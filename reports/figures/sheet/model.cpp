@@ -69,9 +69,9 @@ Drawing draw_window(const dem::Record& r, const Window& w, double width, bool ou
 FigureContent neighbours(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "Particles lie on a triangular lattice, so that each has up to six neighbours; springs join neighbours along "
-      "their "
-      "lines of centres.";
+      "Particles lie on a triangular lattice, so that each has at most six neighbours, and are joined by linear "
+      "elastic springs.";
+  content.rows = {"sheet_neighbours"};
   const dem::Record* r = main_record(study);
   if (!r) return content;
   const Layout l = layout_of(*r);
@@ -96,7 +96,8 @@ FigureContent neighbours(const StudyResult& study) {
 FigureContent box(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "The outer rows are walls: fixed across the boundary, free along it, so that the walls have no friction.";
+      "The outer rows are wall particles: fixed across the boundary, free to move along it, so that the walls have no "
+      "friction.";
   const dem::Record* r = main_record(study);
   if (!r) return content;
   const Layout l = layout_of(*r);
@@ -143,9 +144,9 @@ FigureContent box(const StudyResult& study) {
 FigureContent flow(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "After a deformation step the sheet relaxes; while a spring is over its strength, the one most likely to "
-      "fracture "
-      "breaks and the sheet relaxes again; then the next step begins.";
+      "After a deformation step the sheet relaxes to equilibrium; while a spring exceeds its tensile strength, the one "
+      "most likely to break does, and the sheet relaxes again; then the next step begins.";
+  content.rows = {"sheet_breaks_per_relaxation"};
   const dem::Record* r = main_record(study);
   const bool growth = r && r->text("test") == "growth";
   std::string body;
@@ -209,8 +210,8 @@ FigureContent flow(const StudyResult& study) {
 FigureContent elle_layer(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "Elle nodes and the segments between them are the outlines of grains; particles inside an outline belong to that "
-      "grain and share its properties.";
+      "Elle nodes and their connections are the outlines of grains; particles inside an outline belong to that grain "
+      "and have the same properties.";
   const dem::Record* r = main_record(study);
   if (!r) return content;
   const Layout l = layout_of(*r);

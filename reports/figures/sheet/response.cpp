@@ -124,8 +124,10 @@ FigureContent stress_strain(const StudyResult& study) {
   FigureContent content;
   const dem::Record* main = main_record(study);
   if (!main) return content;
+  content.expected = true;
   content.statement = main->text("test") == "pure_shear"
-                          ? "Narrow strength distributions fail abruptly; wide ones crack early and fail gradually."
+                          ? "A sheet with a narrow distribution of strengths fails abruptly; one with a wide "
+                            "distribution cracks early and fails gradually."
                           : "";
   std::vector<std::string> said;
   for (const dem::Record* r : records_of(study)) {
@@ -144,11 +146,11 @@ FigureContent stress_strain(const StudyResult& study) {
       said.push_back(start + "no spring broke");
       continue;
     }
-    std::string words = fmt::format("{}first break at {} %; the worst step breaks {} of the springs", start,
+    std::string words = fmt::format("{}first break at {} %; {} of all breaks fall in the worst load step", start,
                                     number(100 * r->value(quantity::onset_strain), 3),
                                     percent(r->value_or_nan(quantity::worst_step_share), 0));
     if (r->value_or_nan(quantity::largest_drop_share) > 0) {
-      words += fmt::format(" and takes {} of the largest tension on the walls",
+      words += fmt::format(", which loses {} of the largest tension on the walls",
                            percent(r->value(quantity::largest_drop_share), 0));
     }
     said.push_back(words);
@@ -201,16 +203,14 @@ FigureContent energy(const StudyResult& study) {
   }
   if (!said.empty())
     content.finding =
-        "Work of the walls and of growing grains is stored in springs, or released by breaking and by jumps from one "
-        "equilibrium to another. Unaccounted for, as a "
-        "share of the work: " +
+        "Work that is neither stored in springs nor released by breaking and jumps, as a share of the work: " +
         joined(said, "; ") + ".";
   return content;
 }
 
 FigureContent stress_fields(const StudyResult& study) {
   FigureContent content;
-  content.finding = "Stress of each particle from the springs that it holds, over its cell of the lattice.";
+  content.finding = "The stress of a particle is that of its springs over its cell of the lattice.";
   const dem::Record* r = main_record(study);
   if (!r) return content;
   const auto snapshots = snapshots_of(*r);
@@ -250,7 +250,8 @@ FigureContent solvers(const StudyResult& study) {
   row("Strain at the first break (%)", quantity::onset_strain, [](double v) { return number(100 * v, 3); });
   row("Peak differential stress (k)", quantity::peak_differential_stress, [](double v) { return number(v, 4); });
   row("Strain at the peak (%)", quantity::strain_at_peak, [](double v) { return number(100 * v, 3); });
-  table.rows.push_back({"Share between grains", percent(between_share(*ours), 1), percent(between_share(*theirs), 1)});
+  table.rows.push_back(
+      {"Share at grain boundaries", percent(between_share(*ours), 1), percent(between_share(*theirs), 1)});
   row("Largest unbalanced over largest spring force", quantity::unbalanced_force,
       [](double v) { return number(v, 2); });
   row("Energy unaccounted for, share of the work", quantity::energy_residual, [](double v) { return number(v, 2); });
@@ -284,8 +285,9 @@ FigureContent solvers(const StudyResult& study) {
   }
   content.finding = fmt::format(
       "The historical sweep stops when no particle moves by more than 1.4 × 10⁻⁷ of the box in a sweep; the converged "
-      "solver stops at force equilibrium. {}; {} of the springs that break converged also break with the historical "
-      "one.",
+      "solver stops at force equilibrium. {}; {} of the springs that break with the converged solver also break with "
+      "the "
+      "historical one.",
       same == 0 ? "The very first break differs"
                 : fmt::format("The order is the same up to break {}", count(static_cast<double>(same))),
       percent(both, 0));

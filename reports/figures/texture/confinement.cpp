@@ -209,7 +209,7 @@ TextTable envelope_table(const StudyResult& study, const analysis::Envelopes& fo
   };
   row("peak, σc = UCS, s = 1", "m", "envelope_peak_m", "peak.m", found.peak.sigma_1.size());
   row("peak, s = 1", "σc (MPa)", "envelope_peak_sigma_c", "free.sigma_c", found.peak.sigma_1.size());
-  row("", "m", "envelope_free_m", "free.m", found.peak.sigma_1.size());
+  row("", "m", "envelope_peak_m", "free.m", found.peak.sigma_1.size());
   row("crack damage, σc = UCS", "m", "envelope_damage_m", "damage.m", found.damage.sigma_1.size());
   row("", "s", "envelope_damage_s", "damage.s", found.damage.sigma_1.size());
   for (const analysis::Initiation& one : found.initiation) {
@@ -225,8 +225,9 @@ TextTable envelope_table(const StudyResult& study, const analysis::Envelopes& fo
 FigureContent confinement_curves(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "The peak rises with the confining pressure. Crack initiation, where the axial stiffness starts to fluctuate, "
+      "The peak stress rises with the confining pressure. Crack initiation, where the axial stiffness fluctuates, "
       "stays below 0.1 % strain.";
+  content.rows = {"trend_peak_with_pressure", "initiation_strain_confined"};
   const auto cases = confined(study);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
@@ -244,7 +245,7 @@ FigureContent confinement_curves(const StudyResult& study) {
   mark_initiation(start, cases, shown(quantity::initiation_by_stiffness));
   content.panels.push_back(
       {.id = "start",
-       .caption = "The same at small strains, and where the stiffness leaves its plateau.",
+       .caption = "Axial stress at small strains, and where the stiffness leaves its plateau.",
        .alt = "Stress at small strains; the stiffness leaves its plateau at strains of " + strains + ".",
        .content = start});
   render::Chart stiffness =
@@ -277,9 +278,11 @@ FigureContent confinement_curves(const StudyResult& study) {
     if (swing > departure) uneven.push_back(item.label + " (± " + percent(swing, 1) + ")");
   }
   if (!uneven.empty()) {
-    content.finding += " The start of the platens still swings the stiffness by more than the " +
-                       percent(departure, 0) + " that are looked for, where the plateau is read, at " + listed(uneven) +
-                       ": what is read there is not of cracks alone.";
+    content.finding += " At " + listed(uneven) +
+                       " the stiffness still oscillates after the start of the platens by more "
+                       "than the " +
+                       percent(departure, 0) +
+                       " that mark initiation, so that the reading there is not of cracks alone.";
   }
   return content;
 }
@@ -287,14 +290,15 @@ FigureContent confinement_curves(const StudyResult& study) {
 FigureContent confinement_envelopes(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "Hoek-Brown envelopes with σc 206 MPa and m 29, s 1 for the peak, m 16, s 0.6 for crack damage; crack initiation "
-      "at "
-      "71.1 MPa + 1.1 σ₃, within the range of laboratories, (0.3 to 0.5) σc + (1 to 1.5) σ₃ (Eq. 12). Points of the "
-      "flat "
-      "joint model and of laboratories, which the text does not list, are left out.";
+      "Hoek-Brown envelopes with σc 206 MPa, m 29 and s 1 for the peak, and m 16 and s 0.6 for crack damage; crack "
+      "initiation at 71.1 MPa + 1.1 σ₃, within (0.3 to 0.5) σc + (1 to 1.5) σ₃ for brittle rocks (Eq. 12).";
+  content.rows = {"envelope_peak_m", "envelope_damage_m", "envelope_damage_s", "initiation_slope",
+                  "initiation_intercept"};
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   const analysis::Envelopes found = envelopes_of(study);
   if (found.peak.sigma_3.empty()) return content;
+  const auto [lowest, highest] = std::ranges::minmax(found.peak.sigma_3);
+  if (lowest == highest) return content;  // one pressure makes no envelope
   const auto tension = tensile_strengths(study);
   std::vector<std::string> said;
   if (found.peak_fit) {
@@ -313,7 +317,7 @@ FigureContent confinement_envelopes(const StudyResult& study) {
   const std::string fits = said.empty() ? "too few pressures for a fit" : joined(said, "; ");
   content.panels.push_back(
       {.id = "",
-       .caption = "Strengths against confining pressure with fitted envelopes; the tensile strength stands at −σ₃.",
+       .caption = "Strengths against confining pressure with fitted envelopes; the tensile strength is drawn at −σ₃.",
        .alt = "Peak stresses from " + number(std::ranges::min(found.peak.sigma_1), 3) + " to " +
               number(std::ranges::max(found.peak.sigma_1), 3) + " MPa. Fits: " + fits + ".",
        .content = envelope_chart(study, found, tension)});
@@ -322,7 +326,7 @@ FigureContent confinement_envelopes(const StudyResult& study) {
                             .alt = "",
                             .content = envelope_table(study, found),
                             .per_row = 1});
-  content.finding = "Fitted: " + fits + ".";
+  content.finding = said.empty() ? "Too few pressures for a fit." : "Fitted: " + fits + ".";
   // Eq. 12: 0.3 to 0.5 of sigma_c, slope 1 to 1.5. Of the four readings only a stress at a set strain has a slope near 1 by itself:
   // it is sigma_3 and the elastic stress of that strain.
   const double ucs = found.ucs;
@@ -338,7 +342,8 @@ FigureContent confinement_envelopes(const StudyResult& study) {
 
 FigureContent confinement_after_peak(const StudyResult& study) {
   FigureContent content;
-  content.statement = "After the peak the rock turns from brittle to ductile with confining pressure.";
+  content.statement = "With confining pressure the response after the peak turns from brittle to ductile.";
+  content.rows = {"trend_residual_with_pressure"};
   const auto cases = confined(study);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   const ValueOf residual = shown(quantity::residual_over_peak);

@@ -184,15 +184,15 @@ TextTable cracks_by_minerals(const dem::Record& record) {
 }
 
 std::string discs_note(double scale) {
-  return (scale < 1 ? fmt::format(", drawn {:.1g} times as large as they are", scale) : std::string()) + ".";
+  return (scale < 1 ? fmt::format(", drawn at {:.1g} of their diameter", scale) : std::string()) + ".";
 }
 
 }  // namespace
 
 FigureContent crack_maps(const StudyResult& study) {
   FigureContent content;
-  content.statement =
-      "The failure modes at aspect ratios 1, 2 and 3 look alike; cracks spread through the whole specimen.";
+  content.statement = "The failure modes at aspect ratios 1, 2 and 3 are similar.";
+  content.agreement = Agreement::undecided;
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   const int per_row = cases.size() <= 3 ? 3 : 4;
@@ -220,14 +220,17 @@ FigureContent crack_maps(const StudyResult& study) {
     totals.push_back(count(static_cast<double>(total)) + " at " + item.label);
   }
   if (!totals.empty()) content.finding = "Cracks at the end of loading: " + listed(totals) + ".";
+  if (content.agreement) content.finding += " The failure mode is not measured; compare by eye.";
   return content;
 }
 
 FigureContent crack_counts(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "The number of cracks grows with the aspect ratio in every class, most for tension; shear within grains changes "
-      "little, shear between grains more.";
+      "The number of cracks rises with the aspect ratio in all classes, above all that of tension cracks. Intra-grain "
+      "shear cracks change only slightly, inter-grain shear cracks more.";
+  content.rows = {"trend_cracks_inter_tension", "trend_cracks_inter_shear", "trend_cracks_intra_tension",
+                  "trend_cracks_intra_shear", "tension_cracks_rise_most"};
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
@@ -279,15 +282,19 @@ FigureContent dip_crack_maps(const StudyResult& study) {
 FigureContent dip_crack_counts(const StudyResult& study) {
   FigureContent content = crack_counts(study);
   content.statement =
-      "From dip 0° to 90° cracks within grains tend to get fewer, while tension cracks between grains keep rising.";
+      "From dip 0° to 90° intra-grain cracks tend to become fewer, while inter-grain tension cracks keep rising.";
+  content.rows = {"trend_intra_with_dip", "trend_inter_tension_with_dip"};
   return content;
 }
 
 FigureContent confinement_crack_maps(const StudyResult& study) {
   FigureContent content = crack_maps(study);
+  content.finding = content.finding.substr(0, content.finding.find(" The failure mode"));
   content.statement =
-      "With confining pressure the number of cracks grows, shear cracks within grains most; failure turns from axial "
-      "splitting to shear.";
+      "With confining pressure the number of cracks rises, above all that of intra-grain shear cracks; the failure "
+      "mode turns from axial splitting to predominantly shear.";
+  content.rows = {"trend_cracks_with_pressure", "trend_intra_shear_with_pressure"};
+  content.agreement.reset();
   return content;
 }
 
@@ -295,17 +302,34 @@ FigureContent confinement_crack_counts(const StudyResult& study) {
   FigureContent content = crack_counts(study);
   content.statement =
       "The number of tension cracks stays about constant over the confining pressures; number and share of shear "
-      "cracks rise. The fifth of the published categories is taken for the total.";
+      "cracks rise.";
+  content.rows = {"tension_cracks_with_pressure", "trend_shear_with_pressure", "trend_shear_share_with_pressure"};
   return content;
+}
+
+// Whether tension cracks at boundaries lead in stable growth, and most shear cracks come when they are said to: within grains
+// after crack damage, between grains after the peak.
+std::optional<Agreement> stages_agree(const dem::Record& record) {
+  const auto so_far = [&](std::string_view moment) {
+    const dem::Table* table = snapshot(record, moment);
+    return table ? std::optional(crack_numbers(record, cracks_so_far(*table))) : std::nullopt;
+  };
+  const auto growth = so_far("stable_growth"), damage = so_far("damage"), peak = so_far("unstable_growth"),
+             end = so_far("end");
+  if (!growth || !damage || !peak || !end) return std::nullopt;
+  constexpr std::size_t inter_tension = 0, inter_shear = 1, intra_shear = 3;  // of crack_classes()
+  const bool first = std::ranges::max_element(*growth) - growth->begin() == inter_tension;
+  const bool within = 2 * damage->at(intra_shear) <= end->at(intra_shear);
+  const bool between = 2 * peak->at(inter_shear) <= end->at(inter_shear);
+  return first && within && between ? Agreement::agrees : Agreement::disagrees;
 }
 
 FigureContent crack_stages(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "First come tension cracks on grain boundaries, scattered and mostly beside alkali feldspar; tension cracks then "
-      "spread within grains until crack damage; shear within grains follows in unstable growth and crosses whole "
-      "grains; "
-      "shear on grain boundaries comes after the peak.";
+      "At first tension cracks lie mainly on the boundaries of alkali feldspar. They grow within grains and at "
+      "boundaries until crack damage; then intra-grain shear cracks increase and cross whole grains. Inter-grain shear "
+      "cracks begin to propagate after the peak.";
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
@@ -339,11 +363,15 @@ FigureContent crack_stages(const StudyResult& study) {
   content.panels.insert(content.panels.end(), discs.begin(), discs.end());
   content.panels.insert(content.panels.end(), sections.begin(), sections.end());
   content.panels.push_back({.id = "by_minerals",
-                            .caption = "The same by the minerals at their ends.",
+                            .caption = "Number of cracks in each stage by the minerals of the two particles.",
                             .alt = "",
                             .content = cracks_by_minerals(*base.record),
                             .per_row = 1});
+  content.agreement = stages_agree(*base.record);
   content.finding = "At " + base.label + ", cracks so far: " + listed(said) + ".";
+  if (const dem::Table* growth = snapshot(*base.record, "stable_growth")) {
+    content.finding += " In stable growth: " + crack_words(crack_numbers(*base.record, cracks_so_far(*growth))) + ".";
+  }
   const dem::Table* first = snapshot(*base.record, "stable_growth");
   if (first) {
     const std::string boundary = weakest_boundary(*base.record, cracks_so_far(*first));

@@ -115,9 +115,9 @@ Picture contacts_picture(const dem::Record& record, const ContactLines& contacts
 FigureContent genesis_steps(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "Grain seeds are spread at random, a specimen of small particles is packed, ellipsoids mask the particles of "
-      "each grain, and "
-      "grains grow along contacts until no particle is left over.";
+      "Grain seeds are spread at random, a specimen of small particles is made, ellipsoids mask the particles of each "
+      "grain, and grains grow along contacts until every particle belongs to one. The specimen has 36 528 particles.";
+  content.rows = {"texture_particles"};
   if (auto missing = missing_cases(study, test_genesis)) content.panels.push_back(*missing);
   const dem::Record* record = first_specimen(study);
   if (!record) return content;
@@ -138,25 +138,25 @@ FigureContent genesis_steps(const StudyResult& study) {
       {.scene = std::move(seeds), .label = count(grains) + " seeds", .legend = mineral_legend(*record)});
   render::Spheres bare = particles_by_mineral(*record);
   std::ranges::fill(bare.colour, grey);
-  add("packing", "The numerical specimen.", count(particles) + " particles packed in the cylinder, of no mineral yet.",
+  add("packing", "Particles packed in the cylinder.",
+      count(particles) + " particles packed in the cylinder, of no mineral yet.",
       {.scene = scene_of(*record, std::move(bare), false), .label = count(particles) + " particles", .legend = {}});
   add("masked", "Masked by ellipsoids.",
       percent(gaps / particles) + " of the particles are in no ellipsoid and drawn white.",
       {.scene = scene_of(*record, after_round(*record, 0), false),
        .label = count(gaps) + " gap particles",
        .legend = with_gaps(*record)});
-  add("masked_section", "The same, cut along the axis.", "White gap particles lie between the grains.",
+  add("masked_section", "Masked specimen, cut along the axis.", "White gap particles lie between the grains.",
       {.scene = scene_of(*record, after_round(*record, 0), true), .label = "section", .legend = with_gaps(*record)});
   add("grown", "After growth.", "Every particle belongs to a grain.",
       {.scene = specimen_scene(*record, narrow),
        .label = count(grains) + " grains",
        .legend = mineral_legend(*record)});
-  add("grown_section", "The same, cut along the axis.", "Grains of four minerals fill the section.",
+  add("grown_section", "Grown specimen, cut along the axis.", "Grains of four minerals fill the section.",
       {.scene = section_scene(*record, narrow), .label = "section", .legend = mineral_legend(*record)});
   content.finding = fmt::format(
-      "{} seeds and {} particles; ellipsoids mask {} of the particles, {} rounds of growth give the other {} to "
-      "grains; coordination {}, "
-      "porosity {}.",
+      "{} seeds and {} particles; ellipsoids mask {} of the particles, and {} rounds of growth assign the other {}; "
+      "the coordination number is {}, the porosity {}.",
       count(grains), count(particles), percent(1 - gaps / particles), rounds_of(*record), count(gaps),
       number(record->value(quantity::coordination), 3), number(record->value(quantity::porosity), 4));
   return content;
@@ -165,8 +165,8 @@ FigureContent genesis_steps(const StudyResult& study) {
 FigureContent genesis_growth(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "A gap particle that touches a particle of a grain takes its group; the step is repeated until all particles "
-      "have one.";
+      "A gap particle in contact with a particle of a grain takes its group; the step is repeated until every particle "
+      "belongs to a grain.";
   const dem::Record* record = first_specimen(study);
   if (!record) return content;
   const std::int32_t rounds = rounds_of(*record);
@@ -187,7 +187,7 @@ FigureContent genesis_growth(const StudyResult& study) {
          .content = Picture{.scene = std::move(scene), .label = left + " left", .legend = with_gaps(*record)},
          .per_row = 3});
   }
-  TextTable table{{"Round of growth", "Particles that find a grain", "Left"}, {}};
+  TextTable table{{"Round of growth", "Particles assigned", "Particles left"}, {}};
   const auto all = record->table("particles").rows();
   for (std::int32_t round = 0; round <= rounds; ++round) {
     const std::size_t before = round == 0 ? all : gaps_after(*record, round - 1), after = gaps_after(*record, round);
@@ -196,8 +196,9 @@ FigureContent genesis_growth(const StudyResult& study) {
   }
   content.panels.push_back(
       {.id = "rounds", .caption = "Particles by round of growth.", .alt = "", .content = table, .per_row = 1});
+  content.agreement = gaps_after(*record, rounds) == 0 ? Agreement::agrees : Agreement::disagrees;
   content.finding =
-      fmt::format("{} rounds of growth; the first takes {} of the gap particles.", rounds,
+      fmt::format("Growth took {} rounds; the first assigned {} of the gap particles.", rounds,
                   percent(rounds == 0 ? 0.0
                                       : 1 - static_cast<double>(gaps_after(*record, 1)) /
                                                 static_cast<double>(std::max<std::size_t>(1, gaps_after(*record, 0)))));
@@ -207,9 +208,8 @@ FigureContent genesis_growth(const StudyResult& study) {
 FigureContent genesis_contacts(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "Contacts inside a grain take the flat joint model, those between grains the parallel bond model; their "
-      "properties follow from the "
-      "minerals at their ends.";
+      "Intra-grain contacts take the flat joint model, inter-grain contacts the parallel bond model; their properties "
+      "follow from the minerals of the two particles.";
   const dem::Record* record = first_specimen(study);
   if (!record) return content;
   const auto grain = record->table("particles").integer("grain"),
@@ -239,7 +239,7 @@ FigureContent genesis_contacts(const StudyResult& study) {
   law_legend = {{joint_colour, "flat joint", count(static_cast<double>(laws.numbers[0]))},
                 {bond_colour, "parallel bond", count(static_cast<double>(laws.numbers[1]))}};
   const double inter = static_cast<double>(groups.numbers[names.size()] + groups.numbers[names.size() + 1]) / all;
-  const std::string by_group = percent(inter) + " of the contacts are between grains.";
+  const std::string by_group = percent(inter) + " of the contacts are inter-grain contacts.";
   const std::string by_law =
       percent(static_cast<double>(laws.numbers[1]) / all) + " of the contacts are parallel bonds.";
   content.panels.push_back({.id = "groups",
@@ -248,7 +248,7 @@ FigureContent genesis_contacts(const StudyResult& study) {
                             .content = contacts_picture(*record, groups, group_legend, "groups", false),
                             .per_row = 4});
   content.panels.push_back({.id = "groups_near",
-                            .caption = "A few grains of it.",
+                            .caption = "A few grains of the section.",
                             .alt = by_group,
                             .content = contacts_picture(*record, groups, group_legend, "groups, enlarged", true),
                             .per_row = 4});
@@ -258,10 +258,12 @@ FigureContent genesis_contacts(const StudyResult& study) {
                             .content = contacts_picture(*record, laws, law_legend, "laws", false),
                             .per_row = 4});
   content.panels.push_back({.id = "laws_near",
-                            .caption = "A few grains of it.",
+                            .caption = "A few grains of the section.",
                             .alt = by_law,
                             .content = contacts_picture(*record, laws, law_legend, "laws, enlarged", true),
                             .per_row = 4});
+  const bool same = groups.numbers[names.size()] + groups.numbers[names.size() + 1] == laws.numbers[1];
+  content.agreement = same ? Agreement::agrees : Agreement::disagrees;
   content.finding = by_group + " " + by_law;
   return content;
 }

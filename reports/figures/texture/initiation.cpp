@@ -33,9 +33,9 @@ std::string cell(const Spread& spread, int digits) {
 FigureContent initiation_readings(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "Crack initiation is where the axial stiffness starts to fluctuate, at about 0.1 % strain and 71.1 MPa, 34 % of "
-      "the "
-      "peak; laboratories find about 40 %.";
+      "Crack initiation is where the axial stiffness begins to fluctuate, at about 0.1 % strain and 71.1 MPa, 34 % of "
+      "the UCS; about 40 % in laboratory experiments.";
+  content.rows = {"stress_at_0_1_percent_ar_1", "crack_initiation_strain"};
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;

@@ -145,8 +145,8 @@ double published_surface(double ar) {
 FigureContent ellipsoid_turns(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "The ellipsoid is made along x, turned about z by the dip direction, about y by the dip, and moved to its seed "
-      "(Eqs. 3 to 6).";
+      "An ellipsoid is rotated about z by the dip direction and about y by the dip, and translated to its seed (Fig. "
+      "4, Eqs. 3 to 5).";
   const dem::Record* record = first_specimen(study);
   if (!record || !study.scenario) return content;
   double dip = study.scenario->real("texture.dip"), direction = study.scenario->real("texture.dip_direction");
@@ -169,26 +169,27 @@ FigureContent ellipsoid_turns(const StudyResult& study) {
   };
   const std::string about_z = shortest(degrees(direction)) + "°", about_y = shortest(degrees(dip)) + "°";
   add("made", "Along x.", 0, 0, {0, 0, 0});
-  add("dip_direction", "Turned about z by " + about_z + ".", direction, 0, {0, 0, 0});
-  add("dip", "Turned by the dip of " + about_y + ".", direction, dip, {0, 0, 0});
-  add("moved", "Moved to the seed.", direction, dip, {0.6, 0.4, 0.7});
+  add("dip_direction", "Rotated about z by " + about_z + ".", direction, 0, {0, 0, 0});
+  add("dip", "Rotated by the dip of " + about_y + ".", direction, dip, {0, 0, 0});
+  add("moved", "Translated to the seed.", direction, dip, {0.6, 0.4, 0.7});
   // The same turn as the genesis makes it.
   const auto axis = record->table("grains").real("axis");
   const render::Point ours =
       turned({1, 0, 0}, study.scenario->real("texture.dip_direction"), study.scenario->real("texture.dip"));
   double apart = 0;
   for (std::size_t i = 0; i < 3 && axis.size() >= 3; ++i) apart = std::max(apart, std::abs(axis[i] - ours[i]));
-  content.finding = fmt::format("{}The long axes of the specimen’s grains differ from this turn by {}.",
-                                example ? "Angles are an example; the aspect ratio is 2. " : "",
-                                apart < 1e-15 ? "nothing" : number(apart, 2));
+  content.agreement = apart < 1e-12 ? Agreement::agrees : Agreement::disagrees;
+  content.finding = fmt::format("{}The long axes of the specimen’s grains point where this rotation puts them{}.",
+                                example ? "The angles drawn are an example, with aspect ratio 2. " : "",
+                                apart < 1e-12 ? "" : ", but for " + number(apart, 2) + " of a unit vector");
   return content;
 }
 
 FigureContent test_setups(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "Specimens are pressed between platens and pulled by discs of particles at their ends; sections run through the "
-      "axis.";
+      "Models of compression and of direct tension; in tension the discs at both ends, 2.5 mm thick in a specimen of "
+      "50 mm, keep their contacts.";
   const dem::Record* record = first_specimen(study);
   if (!record || !study.scenario) return content;
   const Size size = size_of(*record);
@@ -201,7 +202,7 @@ FigureContent test_setups(const StudyResult& study) {
   with_platens.push_back({steel, "platens"});
   content.panels.push_back(
       {.id = "compression",
-       .caption = "Pressed by two platens.",
+       .caption = "Compression between two platens.",
        .alt = "The specimen between two platens.",
        .content = Picture{.scene = std::move(pressed), .label = "compression", .legend = with_platens},
        .per_row = 4});
@@ -216,7 +217,7 @@ FigureContent test_setups(const StudyResult& study) {
   with_grips.push_back({steel, "gripped discs"});
   content.panels.push_back(
       {.id = "direct_tension",
-       .caption = "Pulled by its ends.",
+       .caption = "Direct tension by gripped ends.",
        .alt = fmt::format("Discs of {:.2f} mm at both ends, {} particles, are gripped.", 1e3 * grip, gripped),
        .content = Picture{.scene = std::move(pulled), .label = "direct tension", .legend = with_grips},
        .per_row = 4});
@@ -226,8 +227,10 @@ FigureContent test_setups(const StudyResult& study) {
        .alt = "The specimen cut along its axis.",
        .content = Picture{.scene = setup_scene(*record, true), .label = "section", .legend = mineral_legend(*record)},
        .per_row = 4});
+  constexpr double published_grip = 2.5 / 50;  // of the height
+  content.agreement = std::abs(grip / size.height - published_grip) < 1e-9 ? Agreement::agrees : Agreement::disagrees;
   content.finding =
-      fmt::format("Specimen of {:g} mm × {:g} mm; gripped discs are {:g} mm thick and hold {} particles.",
+      fmt::format("The specimen is {:g} mm × {:g} mm; the gripped discs are {:g} mm thick and hold {} particles.",
                   1e3 * size.diameter, 1e3 * size.height, 1e3 * grip, count(static_cast<double>(gripped)));
   return content;
 }
@@ -235,8 +238,8 @@ FigureContent test_setups(const StudyResult& study) {
 FigureContent input_parameters(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "Four groups of parameters define a specimen: grain seeds, particles, materials, and their interaction at grain "
-      "boundaries.";
+      "Four groups of parameters: grain seeds, sub-grains, materials and their interaction (Table 1). The density of "
+      "the granite is 2640 kg/m³ (Table 2).";
   if (!study.scenario) return content;
   const dem::Scenario& s = *study.scenario;
   const std::size_t minerals = s.count("mineral");
@@ -308,22 +311,28 @@ FigureContent input_parameters(const StudyResult& study) {
   }
   double density = 0;
   for (std::size_t m = 0; m < minerals; ++m) density += mineral(m, "share") * mineral(m, "density");
+  constexpr double near = 0.01;  // a tolerance of ours
+  const double published = study.published_value("laboratory_density");
+  if (std::isfinite(published)) {
+    content.agreement = std::abs(density / published - 1) < near ? Agreement::agrees : Agreement::disagrees;
+  }
   content.finding =
-      fmt::format("The minerals’ densities, weighted by their shares, give {} kg/m³ for the rock.", number(density, 4));
+      fmt::format("The densities of the minerals, weighted by their shares, give {} kg/m³.", number(density, 4));
   return content;
 }
 
 FigureContent texture_by_seed(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "With the aspect ratio from 1 to 3 the share of contacts between grains rises from 55 to 60 %, because an "
-      "ellipsoid has more surface "
-      "than the sphere of its volume (Eq. 14); shares of minerals stay.";
+      "From aspect ratio 1 to 3 the share of inter-grain contacts rises from 55 to 60 %, because an ellipsoid has more "
+      "surface than the sphere of its volume (Eq. 14); the shares of the minerals hardly change.";
+  content.rows = {"texture_inter_grain_share_ar_1", "texture_inter_grain_share_ar_3",
+                  "texture_trend_inter_grain_share"};
   if (auto missing = missing_cases(study, test_genesis)) content.panels.push_back(*missing);
   const auto cases = swept(study, test_genesis);
   if (cases.empty()) return content;
   const ValueOf share = shown(quantity::inter_grain_share);
-  TextTable table{{"Specimen", "Seeds", "Contacts between grains (%)", "Coordination", "Porosity", "Particles",
+  TextTable table{{"Specimen", "Seeds", "Inter-grain contacts (%)", "Coordination number", "Porosity", "Particles",
                    "Grains", "Gap particles (%)", "Rounds"},
                   {}};
   for (const Group& group : groups_of(study)) {
@@ -338,7 +347,7 @@ FigureContent texture_by_seed(const StudyResult& study) {
     chart.x.title = axis_title(parameter::aspect_ratio);
     chart.x.low = cases.front().value - 0.2;
     chart.x.high = cases.back().value + 0.2;
-    chart.left.title = "Contacts between grains (%)";
+    chart.left.title = "Inter-grain contacts (%)";
     render::Series ours = means(cases, share);
     ours.label = "this study, mean and standard deviation over seeds";
     ours.marker = render::Marker::circle;
@@ -359,15 +368,15 @@ FigureContent texture_by_seed(const StudyResult& study) {
     chart.width = 640;
     chart.height = 420;
     content.panels.push_back({.id = "share",
-                              .caption = "Share of contacts between grains against the aspect ratio.",
+                              .caption = "Share of inter-grain contacts against the aspect ratio.",
                               .alt = by_case(cases, share, 3, "%"),
                               .content = chart,
                               .per_row = 1});
     const double last = cases.back().value;
     content.finding = fmt::format(
-        "The share {}. From AR {} to {} it grows by a factor of {}; the surface of the ellipsoid by {} (exact), {} by "
-        "Eq. 14, which is a mean "
-        "of sections and not the surface. ",
+        "The share {}. From AR {} to {} it grows by a factor of {}; the surface of the ellipsoid by {}, and by {} by "
+        "Eq. 14, "
+        "an approximation. ",
         trend_words(cases, share, "points", swept_axis(study)), shortest(cases.front().value), shortest(last),
         number(analysis::spread(cases.back(), share).mean / base, 4),
         number(exact_surface(last) / exact_surface(cases.front().value), 4),
@@ -377,11 +386,11 @@ FigureContent texture_by_seed(const StudyResult& study) {
       {.id = "table", .caption = "Mean and standard deviation over seeds.", .alt = "", .content = table, .per_row = 1});
   const Spread at_base = analysis::spread(cases.front(), share);
   if (at_base.count > 1) {
-    content.finding += fmt::format(
-        "Over {} seeds the share scatters by {} percentage points, the coordination by {}, the porosity by {}.",
-        at_base.count, number(at_base.deviation, 2),
-        number(analysis::spread(cases.front(), shown(quantity::coordination)).deviation, 2),
-        number(analysis::spread(cases.front(), shown(quantity::porosity)).deviation, 2));
+    content.finding +=
+        fmt::format("Standard deviations over {} seeds: share {} points, coordination number {}, porosity {}.",
+                    at_base.count, number(at_base.deviation, 2),
+                    number(analysis::spread(cases.front(), shown(quantity::coordination)).deviation, 2),
+                    number(analysis::spread(cases.front(), shown(quantity::porosity)).deviation, 2));
   }
   return content;
 }

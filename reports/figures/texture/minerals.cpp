@@ -51,8 +51,13 @@ std::string beside(const Spread& ours, double theirs, int digits) {
 FigureContent mineral_properties(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "Each mineral alone, in a specimen of about 2000 particles, was calibrated to a modulus, a tensile strength, a "
-      "compressive strength and a Hoek-Brown m.";
+      "Each mineral alone, in a specimen of about 2000 particles, was calibrated to the modulus, tensile strength "
+      "(TS), UCS and Hoek-Brown m of Table 3.";
+  content.rows = {
+      "plagioclase_young_modulus",     "plagioclase_tensile_strength",     "plagioclase_ucs",     "plagioclase_m",
+      "alkali_feldspar_young_modulus", "alkali_feldspar_tensile_strength", "alkali_feldspar_ucs", "alkali_feldspar_m",
+      "quartz_young_modulus",          "quartz_tensile_strength",          "quartz_ucs",          "quartz_m",
+      "biotite_young_modulus",         "biotite_tensile_strength",         "biotite_ucs",         "biotite_m"};
   add_missing(content, study, {test_compression, test_tension});
   TextTable table{{"Mineral", "E (GPa)", "TS (MPa)", "UCS (MPa)", "m (95 % interval)"}, {}};
   std::vector<std::string> said;
@@ -72,7 +77,7 @@ FigureContent mineral_properties(const StudyResult& study) {
     std::vector<std::string> parts;
     const auto share = [&](const char* name, double ours, double published_value) {
       if (std::isfinite(ours) && std::isfinite(published_value)) {
-        parts.push_back(fmt::format("{} {} of the published", name, percent(ours / published_value, 0)));
+        parts.push_back(fmt::format("{} {}", name, percent(ours / published_value, 0)));
       }
     };
     share("E", modulus.mean, theirs.young_modulus);
@@ -87,16 +92,16 @@ FigureContent mineral_properties(const StudyResult& study) {
                             .alt = "",
                             .content = table,
                             .per_row = 1});
-  content.finding = joined(said, "; ") + (said.empty() ? "" : ".");
-  if (!content.finding.empty()) content.finding[0] = static_cast<char>(std::toupper(content.finding[0]));
+  if (!said.empty()) content.finding = "Ours over the published values: " + joined(said, "; ") + ".";
   return content;
 }
 
 FigureContent mineral_envelopes(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "Peak stresses of the four minerals against confining pressure, with fitted Hoek-Brown envelopes; quartz is the "
-      "strongest, biotite the weakest.";
+      "Hoek-Brown envelopes fitted to the peak stresses of the four minerals, with the UCS and m of Table 3.";
+  content.rows = {"plagioclase_ucs", "plagioclase_m", "alkali_feldspar_ucs", "alkali_feldspar_m",
+                  "quartz_ucs",      "quartz_m",      "biotite_ucs",         "biotite_m"};
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   render::Chart chart;
   chart.x.title = axis_title(parameter::confining_pressure);

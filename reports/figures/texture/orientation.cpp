@@ -98,8 +98,9 @@ render::Chart angle_chart(const std::vector<SeriesCase>& cases) {
 FigureContent crack_orientation(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "With confining pressure the failure mode turns from axial splitting to shear. The paper shows it by crack maps "
-      "and gives no measure.";
+      "With confining pressure the failure mode turns from axial splitting to predominantly shear, by crack maps; no "
+      "measure is given.";
+  content.rows = {"trend_crack_angle_with_pressure"};
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
@@ -181,9 +182,9 @@ FigureContent crack_orientation(const StudyResult& study) {
                             .per_row = 1});
   content.finding =
       "Mean angle of the cracks to the axis, and angle of the band with most cracks: " + joined(said, "; ") + ".";
-  content.finding += standing.empty() ? " No band holds more cracks than one of cracks placed at random does."
-                                      : " The band holds more cracks than one of cracks placed at random does at " +
-                                            listed(standing) + ".";
+  content.finding += standing.empty()
+                         ? " No band holds more cracks than chance would put there."
+                         : " The band holds more cracks than chance would put there at " + listed(standing) + ".";
   if (cases.size() > 2) {
     content.finding += " The mean angle " + trend_words(cases, mean_angle(-1), "°", axis) + "; the band’s " +
                        trend_words(cases, inclination, "°", axis) + ".";

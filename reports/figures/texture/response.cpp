@@ -75,7 +75,7 @@ render::Chart stress_and_strains(const StudyResult& study, const dem::Record& re
   lateral.line = render::Line::dash_dot;
   lateral.side = render::Side::right;
   chart.series = {stress, volume, lateral};
-  for (const auto& [id, name] : {std::pair{"crack_initiation_ar_1", "published σci"},
+  for (const auto& [id, name] : {std::pair{"stress_at_0_1_percent_ar_1", "published σci"},
                                  {"crack_damage", "published σcd"},
                                  {"ucs_ar_1", "published peak"}}) {
     const double level = study.published_value(id);
@@ -341,7 +341,7 @@ std::vector<double> over_cases(const std::vector<SeriesCase>& cases, const dem::
 }
 
 render::Chart mineral_chart(const std::vector<SeriesCase>& cases) {
-  render::Chart chart = share_chart("Share of particles (%)", cases);
+  render::Chart chart = share_chart("Share of the volume (%)", cases);
   for (const std::string& name : members_of(cases, quantity::mineral_share)) {
     add_stack(chart, words(name), mineral_colour(words(name)), over_cases(cases, quantity::mineral_share, name));
   }
@@ -355,12 +355,12 @@ render::Chart contact_chart(const std::vector<SeriesCase>& cases) {
   for (const std::string& name : members_of(cases, quantity::contact_share)) {
     const auto values = over_cases(cases, quantity::contact_share, name);
     if (name.starts_with("intra_")) {
-      add_stack(chart, "in " + words(name.substr(6)), mineral_colour(words(name.substr(6))), values);
+      add_stack(chart, "intra-grain, " + words(name.substr(6)), mineral_colour(words(name.substr(6))), values);
     } else {
       for (std::size_t i = 0; i < values.size(); ++i) between[i] += values[i];
     }
   }
-  add_stack(chart, "between grains", crack_classes()[0].colour, between);
+  add_stack(chart, "inter-grain", crack_classes()[0].colour, between);
   return chart;
 }
 
@@ -382,9 +382,11 @@ TextTable contact_table(const std::vector<SeriesCase>& cases) {
 FigureContent progressive_failure(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "Crack initiation where the axial stiffness leaves its plateau, at 71.1 MPa (34 % of the peak, strain 0.1 %); "
-      "crack "
-      "damage where the volumetric strain turns, at 164 MPa (80 %, strain 0.25 %); peak at 206.8 MPa.";
+      "Crack initiation, where the axial stiffness begins to fluctuate, is at 71.1 MPa (34 % of the peak) and about "
+      "0.1 % strain; crack damage, where the volumetric strain peaks, at 164 MPa (80 %) and 0.25 %; the peak is 206.8 "
+      "MPa.";
+  content.rows = {"stress_at_0_1_percent_ar_1", "crack_initiation_strain", "crack_damage", "crack_damage_strain",
+                  "ucs_ar_1"};
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
@@ -419,9 +421,18 @@ FigureContent progressive_failure(const StudyResult& study) {
 FigureContent stress_strain(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "Curves agree up to crack initiation and part after it, first in lateral strain. UCS falls from 206.8 to 201.3 "
-      "and "
-      "198.4 MPa and TS from 9.8 to 9.4 and 9.1 MPa at aspect ratios 1, 2 and 3; UCS/TS rises slightly.";
+      "Curves agree up to crack initiation; after it the lateral strains part. From aspect ratio 1 to 3 the UCS falls "
+      "from 206.8 to 201.3 and 198.4 MPa, the tensile strength (TS) from 9.8 to 9.4 and 9.1 MPa; UCS/TS rises "
+      "slightly.";
+  content.rows = {"trend_ucs",
+                  "trend_tensile_strength",
+                  "trend_ucs_ts_ratio",
+                  "ucs_ar_1",
+                  "ucs_ar_2",
+                  "ucs_ar_3",
+                  "tensile_strength_ar_1",
+                  "tensile_strength_ar_2",
+                  "tensile_strength_ar_3"};
   const auto compression = swept(study, test_compression);
   const auto tension = swept(study, test_tension);
   add_missing(content, study, {test_compression, test_tension});
@@ -449,8 +460,10 @@ FigureContent stress_strain(const StudyResult& study) {
 FigureContent dip_strengths(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "With the dip of the long axes from 0° to 90° the tensile strength rises strongly and UCS rises, weakest at 0°; "
-      "UCS/TS falls from 21 to 17.";
+      "From dip 0° to 90° of the long axes the tensile strength (TS) rises dramatically and the UCS rises, weakest at "
+      "0°; UCS/TS falls from 21 to 17.";
+  content.rows = {"trend_ucs_with_dip", "ucs_dip_0_weakest", "trend_tensile_strength_with_dip", "ucs_ts_ratio_dip_0",
+                  "ucs_ts_ratio_dip_90"};
   const auto compression = swept(study, test_compression);
   const auto tension = swept(study, test_tension);
   add_missing(content, study, {test_compression, test_tension});
@@ -463,33 +476,35 @@ FigureContent dip_strengths(const StudyResult& study) {
 FigureContent dip_group_shares(const StudyResult& study) {
   FigureContent content = group_shares(study);
   content.statement = "The dip changes the shares neither of the minerals nor of the contact groups.";
+  content.rows = {"inter_grain_share_change_with_dip"};
   return content;
 }
 
 FigureContent group_shares(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "The shares of the minerals hardly change with the aspect ratio; contacts between grains rise from 55 % to 60 %, "
-      "because an ellipsoid of the same volume has more surface.";
+      "The aspect ratio has little influence on the shares of the minerals. The share of inter-grain contacts rises "
+      "from 55 % at aspect ratio 1 to 60 % at 3, because an ellipsoid of the same volume has more surface (Eq. 14).";
+  content.rows = {"inter_grain_share_ar_1", "inter_grain_share_ar_3", "trend_inter_grain_share"};
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
   const std::string inter = by_case(cases, quantity::inter_grain_share, 3);
   if (!members_of(cases, quantity::mineral_share).empty()) {
     content.panels.push_back({.id = "minerals",
-                              .caption = "Minerals, by particles.",
+                              .caption = "Volume of the minerals.",
                               .alt = "Stacked bars of the mineral shares, nearly the same in every case.",
                               .content = mineral_chart(cases)});
   }
   if (!members_of(cases, quantity::contact_share).empty()) {
     content.panels.push_back({.id = "contacts",
-                              .caption = "Contacts within grains, by mineral, and between grains.",
-                              .alt = "Stacked bars of the contact groups; between grains " + inter + ".",
+                              .caption = "Intra-grain contacts by mineral, and inter-grain contacts.",
+                              .alt = "Stacked bars of the contact groups; inter-grain " + inter + ".",
                               .content = contact_chart(cases)});
     content.panels.push_back(
         {.id = "groups", .caption = "Every contact group.", .alt = "", .content = contact_table(cases)});
   }
-  content.finding = "Contacts between grains: " + inter + ".";
+  content.finding = "Inter-grain contacts: " + inter + ".";
   const std::string trend = trend_words(cases, quantity::inter_grain_share, swept_axis(study));
   if (!trend.empty()) content.finding += " Their share " + trend + ".";
   return content;

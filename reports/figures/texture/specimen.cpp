@@ -148,8 +148,8 @@ std::string mineral_shares(const dem::Record& record) {
 
 FigureContent specimen(const StudyResult& study) {
   FigureContent content;
-  content.statement =
-      "A core of grains grown from random seeds, minerals told apart by colour, and its longitudinal section.";
+  content.statement = "The volume is 17 % plagioclase, 48 % alkali feldspar, 29 % quartz and 6 % biotite (Table 4).";
+  content.rows = {"share_plagioclase", "share_alkali_feldspar", "share_quartz", "share_biotite"};
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
@@ -175,7 +175,7 @@ FigureContent specimen(const StudyResult& study) {
          .per_row = 4});
   }
   const Size size = size_of(base);
-  content.finding = fmt::format("{} particles in {} grains, {:g} mm × {:g} mm; of the particles at {}, {}.",
+  content.finding = fmt::format("{} particles in {} grains, {:g} mm × {:g} mm; at {}, {} of the particles.",
                                 count(static_cast<double>(base.table("particles").rows())),
                                 count(static_cast<double>(base.table("grains").rows())), 1e3 * size.diameter,
                                 1e3 * size.height, cases.front().label, shares);
@@ -185,7 +185,8 @@ FigureContent specimen(const StudyResult& study) {
 FigureContent grain_cluster(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "The same grain at aspect ratios 1, 2 and 3: the masking ellipsoid keeps its volume and grows longer.";
+      "One grain at aspect ratios 1, 2 and 3: ellipsoids of the same volume, longer with the aspect ratio (Eqs. 5 and "
+      "6).";
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
@@ -200,7 +201,7 @@ FigureContent grain_cluster(const StudyResult& study) {
   for (const SeriesCase& item : cases) {
     const Grain grain = grains_of(*item.record)[*index];
     const std::string mineral = minerals_of(*item.record).at(static_cast<std::size_t>(grain.mineral));
-    counts.push_back(fmt::format("{} at {}", grain.particles, item.label));
+    counts.push_back(fmt::format("{} particles at {}", grain.particles, item.label));
     content.panels.push_back(
         {.id = item.id,
          .caption = fmt::format(
@@ -213,16 +214,22 @@ FigureContent grain_cluster(const StudyResult& study) {
          .content = cluster_picture(item, *index, reach, swept_axis(study).id == "dip"),
          .per_row = 3});
   }
+  const auto volume = [&](const SeriesCase& item) {
+    const Grain grain = grains_of(*item.record)[*index];
+    return grain.semi_long * grain.semi_short * grain.semi_short;
+  };
+  const bool same_volume = std::ranges::all_of(
+      cases, [&](const SeriesCase& item) { return std::abs(volume(item) / volume(cases.front()) - 1) < 1e-9; });
+  content.agreement = same_volume ? Agreement::agrees : Agreement::disagrees;
   content.finding = fmt::format(
-      "Grain {} has {} particles. Growth rounds the ellipsoids off: by second moments the aspect ratio of all grains "
-      "is {}.",
+      "Grain {} has {}. Growth rounds the ellipsoids off: by second moments the aspect ratio of all grains is {}.",
       *index, listed(counts), by_case(cases, quantity::realised_ar, 3));
   return content;
 }
 
 FigureContent dip_clusters(const StudyResult& study) {
   FigureContent content = grain_cluster(study);
-  content.statement = "The same grain with its long axis at dips of 0° to 90°.";
+  content.statement = "One grain of aspect ratio 2 with its long axis at dips of 0° to 90°.";
   return content;
 }
 

@@ -1,0 +1,110 @@
+#include "reports/published/verdict.h"
+
+#include <fmt/format.h>
+
+#include "reports/text.h"
+
+namespace reports {
+
+std::string_view verdict_word(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::met:
+      return "met";
+    case Verdict::missed:
+      return "missed";
+    case Verdict::undecided:
+      return "undecided";
+    case Verdict::not_judged:
+      return "not judged";
+    case Verdict::not_computed:
+      break;
+  }
+  return "not computed";
+}
+
+std::string_view role_word(Role role) {
+  switch (role) {
+    case Role::fitted:
+      return "fitted";
+    case Role::theory:
+      return "theory";
+    case Role::follows:
+      return "follows";
+    case Role::sensitivity:
+      return "sensitivity";
+    case Role::number:
+      break;
+  }
+  return "number";
+}
+
+Verdict judge_value(double ours, const std::optional<dem::analysis::Estimate>& interval, const Band& band) {
+  if (!interval || !interval->has_interval()) {
+    return ours >= band.low && ours <= band.high ? Verdict::met : Verdict::missed;
+  }
+  if (interval->low >= band.low && interval->high <= band.high) return Verdict::met;
+  if (interval->high < band.low || interval->low > band.high) return Verdict::missed;
+  return Verdict::undecided;
+}
+
+Verdict judge_sign(const dem::analysis::Estimate& ours, int sign, bool by_chance) {
+  if (!ours.has_interval()) {
+    if (by_chance) return Verdict::undecided;
+    return sign * ours.value > 0 ? Verdict::met : Verdict::missed;
+  }
+  const double least = sign > 0 ? ours.low : -ours.high, most = sign > 0 ? ours.high : -ours.low;
+  if (least > 0) return Verdict::met;
+  return most <= 0 ? Verdict::missed : Verdict::undecided;
+}
+
+void Tally::add(Role role, Verdict verdict) {
+  if (role == Role::fitted) ++fitted;
+  if (role == Role::theory) ++theory;
+  if (role != Role::number) return;
+  switch (verdict) {
+    case Verdict::met:
+      ++met;
+      break;
+    case Verdict::missed:
+      ++missed;
+      break;
+    case Verdict::undecided:
+      ++undecided;
+      break;
+    case Verdict::not_judged:
+      ++not_judged;
+      break;
+    case Verdict::not_computed:
+      ++not_computed;
+      break;
+  }
+}
+
+std::string tally_text(const Tally& counts, std::string_view scale) {
+  std::vector<std::string> parts;
+  const auto say = [&](int number, std::string_view what, bool always = false) {
+    if (number == 0 && !always) return;
+    const std::string verb = parts.empty() ? (number == 1 ? "is " : "are ") : "";
+    parts.push_back(fmt::format("{} {}{}", number == 0 ? "none" : std::to_string(number), verb, what));
+  };
+  const bool judged = counts.met + counts.missed + counts.undecided > 0;
+  say(counts.met, "met", judged);
+  say(counts.missed, "missed");
+  say(counts.undecided, "undecided");
+  say(counts.not_judged, "not judged");
+  say(counts.not_computed, "not computed");
+  std::string text;
+  if (counts.numbers() > 0) {
+    text = fmt::format("Of {} published number{} and trend{} {}.", counts.numbers(), counts.numbers() == 1 ? "" : "s",
+                       counts.numbers() == 1 ? "" : "s", listed(parts));
+  }
+  if (counts.not_judged > 0) text += fmt::format(" The published numbers belong to the scale “{}”.", scale);
+  std::vector<std::string> apart;
+  if (counts.fitted > 0) apart.push_back(fmt::format("{} to which a choice was fitted", counts.fitted));
+  if (counts.theory > 0)
+    apart.push_back(fmt::format("{} that compare{} theory with theory", counts.theory, counts.theory == 1 ? "s" : ""));
+  if (!apart.empty()) text += (text.empty() ? "Counted apart: " : " Counted apart: ") + listed(apart) + ".";
+  return text;
+}
+
+}  // namespace reports
