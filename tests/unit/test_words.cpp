@@ -38,7 +38,11 @@ std::string without_comments(const std::string& code) {
     const std::size_t end = std::min(code.find('\n', i), code.size());
     const std::string line = code.substr(i, end - i);
     const std::size_t first = line.find_first_not_of(' ');
-    if (first == std::string::npos || line.compare(first, 2, "//") != 0) kept += line + "\n";
+    if (first != std::string::npos && (line.compare(first, 2, "//") == 0 || line[first] == '#')) {
+      i = end + 1;
+      continue;
+    }
+    kept += std::regex_replace(line, std::regex("//[^\"]*$"), "") + "\n";
     i = end + 1;
   }
   return std::regex_replace(kept, std::regex("\"\\s*\n\\s*\""), "");  // literals that go on in the next line

@@ -106,7 +106,7 @@ FigureContent open_readings(const StudyResult& study) {
       {"σcd (MPa)", &quantity::crack_damage, false, "crack_damage", 0},
       {"at strain (%)", &quantity::crack_damage_strain, false, "crack_damage_strain", 3},
       {"stress at 0.1 % (MPa)", &quantity::stress_at_strain, false, "stress_at_0_1_percent_ar_1", 1},
-      {"contacts between grains (%)", &quantity::inter_grain_share, false, "inter_grain_share_ar_1", 1}};
+      {"inter-grain contacts (%)", &quantity::inter_grain_share, false, "inter_grain_share_ar_1", 1}};
   TextTable table{{"Reading", "Seeds", "Grains"}, {}};
   for (const Compared& one : compared) {
     table.head.push_back(one.head);
