@@ -93,8 +93,16 @@ render::Chart curves(const std::vector<Reading>& readings) {
 FigureContent open_readings(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "The text leaves open how large the grain seeds were, which neighbour’s grain a particle takes in growth, and "
-      "whether grains of one mineral meet with that mineral’s own values.";
+      "At aspect ratio 1: E 69.8 GPa, ν 0.18, UCS 206.8 MPa, tensile strength (TS) 9.8 MPa, crack damage at 164 MPa "
+      "and "
+      "0.25 % strain, 71.1 MPa at 0.1 % strain.";
+  content.rows = {"young_modulus",
+                  "poisson_ratio",
+                  "ucs_ar_1",
+                  "tensile_strength_ar_1",
+                  "crack_damage",
+                  "crack_damage_strain",
+                  "stress_at_0_1_percent_ar_1"};
   add_missing(content, study, {test_compression, test_tension});
   const std::vector<Reading> found = readings_of(study);
   if (found.empty()) return content;
@@ -135,11 +143,14 @@ FigureContent open_readings(const StudyResult& study) {
         },
         cell(ratios(reading), 1));
   }
-  content.panels.push_back({.id = "table",
-                            .caption = "Each reading alone changed; mean and standard deviation over seeds.",
-                            .alt = "",
-                            .content = table,
-                            .per_row = 1});
+  content.panels.push_back(
+      {.id = "table",
+       .caption = "What the text leaves open: the size of the grain seeds, whose grain a particle takes in growth, and "
+                  "whether grains of one mineral meet with its own values. One reading changed at a time; mean and "
+                  "standard deviation over seeds.",
+       .alt = "",
+       .content = table,
+       .per_row = 1});
   content.panels.push_back({.id = "stress_strain",
                             .caption = "Stress and strain in uniaxial compression, the first seed.",
                             .alt = "Stress-strain curves of each reading; their peaks are in the table.",
