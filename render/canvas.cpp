@@ -5,6 +5,7 @@
 #include "render/draw.h"
 #include "render/offscreen/offscreen.h"
 #include "render/paper/pixels.h"
+#include "render/paper/strip.h"
 #include "render/paper/text.h"
 #include "render/png.h"
 #include "render/scene/draw.h"
@@ -25,19 +26,25 @@ Canvas::Canvas() {
 }
 Canvas::~Canvas() = default;
 
-SceneResult Canvas::draw(const Scene& scene, const std::filesystem::path& png, const Provenance& facts) {
+SceneResult Canvas::draw(const Scene& scene, const std::filesystem::path& png, const Provenance& facts, double dpi) {
   SceneResult result;
-  write_png(draw_scene(impl_->offscreen, scene, result), png, facts, Content::photograph);
+  Image image = draw_scene(impl_->offscreen, scene, result);
+  if (has_strip(scene)) {
+    const Paper strip = strip_of(scene, result);
+    image = stacked(image, to_image(impl_->offscreen, strip, static_cast<double>(scene.width) / strip.width()));
+    result.height = image.height;
+  }
+  write_png(image, png, facts, Content::photograph, dpi);
   return result;
 }
 
 void Canvas::draw(const Chart& chart, const std::filesystem::path& png, const std::filesystem::path& svg,
-                  const Provenance& facts) {
+                  const Provenance& facts, double dpi) {
   const Paper paper = paper_of(chart);
   Provenance with_extents = facts;
   for (const auto& fact : extents(chart)) with_extents.push_back(fact);
-  constexpr int scale = 2;
-  if (!png.empty()) write_png(to_image(impl_->offscreen, paper, scale), png, facts, Content::drawing);
+  const double scale = dpi * column_mm / 25.4 / column_width;
+  if (!png.empty()) write_png(to_image(impl_->offscreen, paper, scale), png, facts, Content::drawing, dpi);
   if (!svg.empty()) dem::write_file(svg, to_svg(paper, with_extents));
 }
 

@@ -19,11 +19,13 @@ class Canvas {
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  /// Draws a chart as PNG (2x) and as SVG (text is text, in DejaVu Sans); an empty path leaves that file out.
+  /// Draws a chart as PNG and as SVG (text is text, in DejaVu Sans); an empty path leaves that file out. `dpi` of the
+  /// PNG where a chart of column_width is column_mm wide.
   /// Files are written aside, then renamed. Throws std::invalid_argument when columns of the chart differ in length.
   void draw(const Chart& chart, const std::filesystem::path& png, const std::filesystem::path& svg,
-            const Provenance& facts);
-  SceneResult draw(const Scene& scene, const std::filesystem::path& png, const Provenance& facts);
+            const Provenance& facts, double dpi = 300);
+  /// `dpi` is noted in the file; the scene says how many pixels it has.
+  SceneResult draw(const Scene& scene, const std::filesystem::path& png, const Provenance& facts, double dpi = 0);
   [[nodiscard]] std::string gl_renderer() const;  ///< for run.json
   /// A process that was forked after this became true cannot draw: the threads of the GL driver stayed behind.
   [[nodiscard]] static bool any_made();

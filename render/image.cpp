@@ -34,4 +34,11 @@ Image mix(const Image& a, const Image& b, double share) {
   return result;
 }
 
+Image stacked(const Image& above, const Image& below) {
+  Image both = above;
+  both.height += below.height;
+  both.rgb.insert(both.rgb.end(), below.rgb.begin(), below.rgb.end());
+  return both;
+}
+
 }  // namespace render

@@ -20,6 +20,9 @@ struct Image {
 /// Mean of blocks of factor x factor pixels: smooths edges drawn at `factor` times the size. Sizes must divide.
 Image shrink(const Image& image, int factor);
 
+/// One below the other; they must be of one width.
+Image stacked(const Image& above, const Image& below);
+
 /// (1 - share) a + share b, pixel by pixel; sizes must agree.
 Image mix(const Image& a, const Image& b, double share);
 

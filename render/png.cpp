@@ -26,7 +26,8 @@ bool ascii(const std::string& text) {
 }
 
 // libpng reports errors by longjmp: this function holds nothing that needs a destructor.
-bool encode(const Image& image, png_textp texts, int text_count, png_bytepp rows, int filters, std::string* bytes) {
+bool encode(const Image& image, png_textp texts, int text_count, png_bytepp rows, int filters, png_uint_32 per_metre,
+            std::string* bytes) {
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   if (png == nullptr) return false;
   png_infop info = png_create_info_struct(png);
@@ -39,6 +40,7 @@ bool encode(const Image& image, png_textp texts, int text_count, png_bytepp rows
                PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_compression_level(png, 6);
   png_set_filter(png, PNG_FILTER_TYPE_BASE, filters);
+  if (per_metre > 0) png_set_pHYs(png, info, per_metre, per_metre, PNG_RESOLUTION_METER);
   png_set_text(png, info, texts, text_count);
   png_write_info(png, info);
   png_write_image(png, rows);
@@ -49,7 +51,7 @@ bool encode(const Image& image, png_textp texts, int text_count, png_bytepp rows
 
 }  // namespace
 
-std::string png_bytes(const Image& image, const Provenance& facts, Content content) {
+std::string png_bytes(const Image& image, const Provenance& facts, Content content, double dpi) {
   Provenance copy = facts;  // libpng wants mutable text
   std::vector<png_text> texts;
   for (auto& [key, value] : copy) {
@@ -65,13 +67,14 @@ std::string png_bytes(const Image& image, const Provenance& facts, Content conte
   for (int row = 0; row < image.height; ++row) rows.push_back(const_cast<png_bytep>(&image.rgb[image.at(0, row)]));
   std::string bytes;
   const int filters = content == Content::drawing ? PNG_FILTER_NONE : PNG_ALL_FILTERS;
-  if (!encode(image, texts.data(), static_cast<int>(texts.size()), rows.data(), filters, &bytes))
+  if (!encode(image, texts.data(), static_cast<int>(texts.size()), rows.data(), filters,
+              static_cast<png_uint_32>(std::lround(dpi / 0.0254)), &bytes))
     throw dem::EnvironmentError("cannot pack a picture as PNG");
   return bytes;
 }
 
-void write_png(const Image& image, const fs::path& path, const Provenance& facts, Content content) {
-  dem::write_file(path, png_bytes(image, facts, content));
+void write_png(const Image& image, const fs::path& path, const Provenance& facts, Content content, double dpi) {
+  dem::write_file(path, png_bytes(image, facts, content, dpi));
 }
 
 Image read_png(const fs::path& path) {

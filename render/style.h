@@ -13,9 +13,16 @@ struct Colour {
 
 enum class Line { none, solid, dash, dot, dash_dot };
 enum class Marker { none, circle, square, diamond, triangle, cross };
+enum class Pattern { none, rising, falling };  ///< hatching of a filled shape
 
-/// Colours that stay apart for colour-blind readers and in grey print (Okabe & Ito 2008), by index.
+/// Colours of lines and bars, by index; seven, then from the start. Any two are 15 apart (CIEDE2000) for readers with and
+/// without red or green cones, each has a contrast of 3 with white. In grey, lines and markers tell them apart.
 Colour palette(std::size_t index);
+/// Fills of an ordered series, from light to dark, as far apart in grey as `count` allows.
+Colour ordered(std::size_t index, std::size_t count);
+/// The line that goes with it: solid, dash, dash-dot, dot, then from the start.
+Line line_style(std::size_t index);
+Marker marker_style(std::size_t index);
 
 /// Stable facts written into PNG text chunks and SVG metadata: {"Scenario", hash}, {"Figure", id}, {"Engine", version}.
 /// SVG also takes {"Title", ...} and {"Description", ...} for its <title> and <desc>.

@@ -15,4 +15,37 @@ double StudyResult::published_value(std::string_view id) const {
   return found == published.end() ? std::nan("") : found->low;
 }
 
+void lay_out(std::vector<Panel>& panels) {
+  const auto half = [](const Panel& panel) {
+    const bool drawn =
+        std::holds_alternative<render::Chart>(panel.content) || std::holds_alternative<std::string>(panel.content);
+    return drawn && (panel.per_row == 2 || panel.per_row == 0);
+  };
+  const auto whole = [](Panel& panel) {
+    if (auto* chart = std::get_if<render::Chart>(&panel.content)) chart->width = render::page_width;
+    panel.per_row = 1;
+    panel.whole_width = true;
+  };
+  for (std::size_t i = 0; i < panels.size();) {
+    auto* first = std::get_if<render::Chart>(&panels[i].content);
+    if (!half(panels[i])) {
+      if (first) whole(panels[i]);
+      ++i;
+      continue;
+    }
+    if (i + 1 == panels.size() || !half(panels[i + 1])) {
+      if (first) whole(panels[i]);
+      ++i;
+      continue;
+    }
+    auto* second = std::get_if<render::Chart>(&panels[i + 1].content);
+    if (first && second) first->height = second->height = std::max(first->height, second->height);
+    for (Panel* panel : {&panels[i], &panels[i + 1]}) {
+      if (auto* chart = std::get_if<render::Chart>(&panel->content)) chart->width = render::column_width;
+      panel->per_row = 2;
+    }
+    i += 2;
+  }
+}
+
 }  // namespace reports

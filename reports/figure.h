@@ -69,7 +69,7 @@ struct Panel {
   std::string caption;  ///< one sentence
   std::string alt;      ///< what a reader who cannot see it must know, numbers included
   std::variant<render::Chart, Picture, TextTable, std::string> content;  ///< std::string: a complete SVG drawing
-  int per_row = 0;           ///< panels beside each other on the page; 0: chosen from the content
+  int per_row = 0;           ///< panels beside each other on the page; 0: charts two, pictures three
   bool whole_width = false;  ///< alone in its row, it is as wide as the printed page
 };
 
@@ -84,6 +84,10 @@ struct FigureContent {
   std::optional<Agreement> agreement;  ///< by the figure's own measure, where no number is published
   bool expected = false;               ///< the statement is no paper's: what one expects
 };
+
+/// Gives charts the width at which they are shown, so that their text has one size everywhere: those beside each other a
+/// column each and one height, the others, and one that would be left alone, the page.
+void lay_out(std::vector<Panel>& panels);
 
 struct Figure {
   std::string_view id;  ///< "crack_maps"

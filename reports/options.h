@@ -31,6 +31,7 @@ struct ReportOptions {
   std::string only;              ///< draw only this figure; "": all that belong to the scenario
   Again again;                   ///< how to make it again: shown in the report
   std::string engine_version;    ///< "0.1.0"
+  double dpi = 300;              ///< of pictures, 85 mm wide in a column and 170 mm over the page
   int workers = 1;               ///< processes to draw in; the same bytes with any number
   double pdf_seconds = 900;      ///< WeasyPrint is ended after so long
   std::function<bool()> stopped = [] { return false; };                 ///< asked for while drawing and printing

@@ -71,6 +71,11 @@ std::vector<Key> declare_rock() {
        .form = Form::name,
        .affects = Affects::specimen,
        .help = "name of the mineral: up to 40 letters, digits, blanks and - _ ( ) +"},
+      {.path = "mineral[].colour",
+       .type = KeyType::text,
+       .standard = "\"\"",
+       .affects = Affects::drawing,
+       .help = "in the figures, as \"#c0a080\" (red, green, blue); not given: by the mineral's place in the list"},
       {.path = "mineral[].share",
        .unit = "%",
        .low = 0,
@@ -442,6 +447,13 @@ Settings read_settings(const Scenario& s, std::string_view test) {
               get("bond_modulus"),     get("bond_stiffness_ratio"),
               get("tensile_strength"), get("cohesion"),
               get("friction_angle")};
+    const std::string& colour = s.text(key("colour"));
+    const bool hexadecimal = colour.size() == 7 && colour.front() == '#' &&
+                             colour.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+    if (!colour.empty() && !hexadecimal) {
+      throw s.error(key("colour"), "\"" + colour + "\" is no colour",
+                    "write # and six hexadecimal digits, two each for red, green and blue: \"#c0a080\"");
+    }
     if (m.diameter_max < m.diameter_min) {
       throw s.error(key("diameter_max"), "it is smaller than diameter_min", "the range runs from diameter_min up");
     }

@@ -9,14 +9,10 @@ namespace {
 
 constexpr double sample_length = 2.3, sample_gap = 0.5, row_height = 1.45, column_gap = 1.5;  // in text sizes
 
-/// A title along an axis, made smaller when it is longer than `room`, and kept inside from ... to.
-struct FittedTitle {
-  double size, middle;
-};
-FittedTitle fitted(const ChartLayout& layout, const std::string& title, double middle, double from, double to) {
-  const double width = text_width(title, layout.title_size()), room = to - from - 4;
-  const double shrink = std::clamp(room / std::max(width, 1.0), 0.6, 1.0), half = shrink * width / 2 + 2;
-  return {shrink * layout.title_size(), std::max(from + half, std::min(middle, to - half))};
+/// The middle of a title along an axis, kept inside from ... to.
+double fitted(const ChartLayout& layout, const std::string& title, double middle, double from, double to) {
+  const double half = text_width(title, layout.title_size()) / 2 + 2;
+  return std::max(from + half, std::min(middle, to - half));
 }
 
 bool on_axis(const Scale& scale, const Tick& tick) {
@@ -35,20 +31,21 @@ void draw_x_axis(Paper& paper, const ChartLayout& layout, const Stroke& stroke) 
     paper.line({{x, p.top}, {x, p.top + length}}, stroke);
     if (!tick.label.empty()) paper.text(tick.label, {x, base}, style);
   }
-  TextStyle category = style;
-  category.size = layout.category_text;
   std::size_t lines = 1;
   for (std::size_t c = 0; c < layout.categories.size(); ++c) {
     lines = std::max(lines, layout.categories[c].size());
     for (std::size_t k = 0; k < layout.categories[c].size(); ++k)
       paper.text(layout.categories[c][k],
-                 {layout.across(static_cast<double>(c)), base + 1.2 * layout.text * static_cast<double>(k)}, category);
+                 {layout.across(static_cast<double>(c)), base + 1.2 * layout.text * static_cast<double>(k)}, style);
   }
   const double below = base + 1.2 * layout.text * static_cast<double>(lines - 1) + 1.6 * layout.title_size();
   TextStyle title = style;
-  const FittedTitle fit = fitted(layout, layout.chart->x.title, p.middle().x, layout.area.left, layout.area.right);
-  title.size = fit.size;
-  if (!layout.chart->x.title.empty()) paper.text(layout.chart->x.title, {fit.middle, below}, title);
+  title.size = layout.title_size();
+  for (std::size_t k = 0; k < layout.x_title.size(); ++k)
+    paper.text(layout.x_title[k],
+               {fitted(layout, layout.x_title[k], p.middle().x, layout.area.left, layout.area.right),
+                below + 1.2 * title.size * static_cast<double>(k)},
+               title);
   TextStyle multiplier = style;
   multiplier.anchor = Anchor::end;
   if (!layout.x.multiplier.empty()) paper.text(layout.x.multiplier, {p.right, below}, multiplier);
@@ -57,7 +54,7 @@ void draw_x_axis(Paper& paper, const ChartLayout& layout, const Stroke& stroke) 
 void draw_y_axis(Paper& paper, const ChartLayout& layout, Side side, bool mirrored, const Stroke& stroke) {
   const Rect& p = layout.plot;
   const Scale& scale = layout.scale(side);
-  const Axis& axis = side == Side::left ? layout.chart->left : layout.chart->right;
+  const std::vector<std::string>& lines = side == Side::left ? layout.left_title : layout.right_title;
   const double edge = side == Side::left ? p.left : p.right, inward = side == Side::left ? 1 : -1;
   const TextStyle style{layout.text, side == Side::left ? Anchor::end : Anchor::start, ink, false, false};
   double widest = 0;
@@ -70,11 +67,15 @@ void draw_y_axis(Paper& paper, const ChartLayout& layout, Side side, bool mirror
     paper.text(tick.label, {edge - inward * label_gap, y + cap_height * layout.text / 2}, style);
     widest = std::max(widest, text_width(tick.label, layout.text));
   }
-  const FittedTitle fit = fitted(layout, axis.title, p.middle().y, layout.area.top, layout.area.bottom);
-  const TextStyle title{fit.size, Anchor::middle, ink, false, true};
-  const double off = label_gap + widest + 0.55 * layout.title_size();
-  const double x = side == Side::left ? edge - off : edge + off + cap_height * layout.title_size();
-  if (!axis.title.empty()) paper.text(axis.title, {x, fit.middle}, title);
+  const TextStyle title{layout.title_size(), Anchor::middle, ink, false, true};
+  const double off = label_gap + widest + 0.55 * layout.title_size(), line = 1.2 * layout.title_size();
+  const double first = side == Side::left ? edge - off - line * (static_cast<double>(lines.size()) - 1)
+                                          : edge + off + cap_height * layout.title_size();
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    paper.text(lines[k],
+               {first + line * static_cast<double>(k),
+                fitted(layout, lines[k], p.middle().y, layout.area.top, layout.area.bottom)},
+               title);
   TextStyle multiplier = style;
   multiplier.anchor = side == Side::left ? Anchor::start : Anchor::end;
   if (!scale.multiplier.empty()) paper.text(scale.multiplier, {edge, p.top - 0.5 * layout.text}, multiplier);
@@ -85,12 +86,13 @@ void draw_sample(Paper& paper, const ChartLayout& layout, const LegendKey& key, 
   if (key.swatch) {
     const double half = 0.42 * layout.text, centre = (left + right) / 2;
     const Rect box{centre - 1.6 * half, middle - half, centre + 1.6 * half, middle + half};
-    paper.rectangle(box, key.colour, key.opacity);
+    if (key.pattern == Pattern::none) paper.rectangle(box, key.colour, key.opacity);
+    paper.hatch(box, key.pattern, hatch_gap, {key.colour, hatch_width, Line::solid});
     if (key.opacity >= 1) paper.frame(box, {ink, 0.6, Line::solid});
     return;
   }
   paper.line({{left, middle}, {right, middle}}, {key.colour, key.width, key.line});
-  paper.marker(key.marker, {(left + right) / 2, middle}, 0.52 * layout.text, key.colour);
+  paper.marker(key.marker, {(left + right) / 2, middle}, 0.52 * layout.text, key.colour, key.hollow);
 }
 
 double key_width(const ChartLayout& layout, const LegendKey& key) {
@@ -123,16 +125,30 @@ std::vector<Vec2> key_places(const ChartLayout& layout, const std::vector<Legend
 
 }  // namespace
 
-std::vector<LegendKey> legend_keys(const Chart& chart) {
+std::vector<LegendKey> legend_keys(const ChartLayout& layout) {
+  const Chart& chart = *layout.chart;
   std::vector<LegendKey> keys;
+  const auto swatch = [&](const std::string& label, const Colour& colour, double opacity, Pattern pattern) {
+    keys.push_back({.label = label, .colour = colour, .swatch = true, .opacity = opacity, .pattern = pattern});
+  };
   if (chart.bars)
     for (std::size_t s = 0; s < chart.bars->labels.size(); ++s)
       if (!chart.bars->labels[s].empty())
-        keys.push_back({chart.bars->labels[s], chart.bars->colours[s], true, 1, Line::none, 1, Marker::none});
+        swatch(chart.bars->labels[s], chart.bars->colours[s], 1,
+               s < chart.bars->patterns.size() ? chart.bars->patterns[s] : Pattern::none);
   for (const Series& s : chart.series)
-    if (!s.label.empty()) keys.push_back({s.label, s.colour, false, 1, s.line, s.width, s.marker});
-  for (const Band& b : chart.bands)
-    if (!b.label.empty()) keys.push_back({b.label, b.colour, true, 0.28, Line::none, 1, Marker::none});
+    if (!s.label.empty())
+      keys.push_back({.label = s.label,
+                      .colour = s.colour,
+                      .line = s.line,
+                      .width = s.width,
+                      .marker = s.marker,
+                      .hollow = s.hollow});
+  for (std::size_t b = chart.bands.size(); b-- > 0;) {  // from above, as bands are stacked
+    const Band& band = chart.bands[b];
+    const bool holds_its_own = b < layout.inside.size() && layout.inside[b];
+    if (!band.label.empty() && !holds_its_own) swatch(band.label, band.colour, band.opacity, Pattern::none);
+  }
   return keys;
 }
 
@@ -149,7 +165,7 @@ Vec2 legend_size(const ChartLayout& layout, const std::vector<LegendKey>& keys, 
 
 void draw_legend(Paper& paper, const ChartLayout& layout) {
   if (layout.legend == Chart::Legend::none) return;
-  const auto keys = legend_keys(*layout.chart);
+  const auto keys = legend_keys(layout);
   const auto places = key_places(layout, keys, layout.area.width() - 8);
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const double left = layout.legend_box.left + places[i].x;

@@ -12,6 +12,11 @@
 
 namespace render {
 
+/// Widths of charts and drawings (px): a column, 85 mm in print, and the page, 170 mm. One px is 0.2125 mm there, so that
+/// text of 12 px is 7.2 pt.
+constexpr int column_width = 400, page_width = 800;
+constexpr double column_mm = 85;
+
 enum class Side { left, right };  ///< which value axis
 
 struct Axis {
@@ -28,8 +33,9 @@ struct Series {
   Line line = Line::solid;
   double width = 1.6;  ///< px at 100 dpi
   Marker marker = Marker::none;
+  bool hollow = false;  ///< markers are outlines filled with white: what is published
   Side side = Side::left;
-  std::vector<double> y_error;  ///< half lengths of error bars; empty: none
+  std::vector<double> y_error = {};  ///< half lengths of error bars; empty: none
 };
 
 /// A filled band between two curves.
@@ -38,6 +44,9 @@ struct Band {
   std::vector<double> x, low, high;
   Colour colour;
   Side side = Side::left;
+  double opacity = 0.28;
+  bool outlined = false;  ///< a fine dark line along its upper edge
+  bool inside = false;    ///< its label stands in it where there is room for it, and leaves the legend then
 };
 
 /// Grouped or stacked bars: values[series][category].
@@ -45,6 +54,8 @@ struct Bars {
   std::vector<std::string> categories;
   std::vector<std::string> labels;
   std::vector<Colour> colours;
+  std::vector<Pattern> patterns =
+      {};  ///< of each series; empty: none. Hatched bars are hatched in their colour on white
   std::vector<std::vector<double>> values;
   std::vector<std::vector<double>> errors;  ///< empty: none
   bool stacked = false;
@@ -87,7 +98,7 @@ struct Chart {
     outside_right,
     below
   } legend = Legend::top_left;
-  int width = 720, height = 480;  ///< px at 100 dpi; PNG is drawn at twice that
+  int width = 400, height = 300;  ///< px; see column_width
 };
 
 }  // namespace render

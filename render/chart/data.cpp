@@ -7,6 +7,7 @@
 
 #include "render/chart/curve.h"
 #include "render/chart/layout.h"
+#include "render/colour.h"
 
 namespace render {
 namespace {
@@ -18,7 +19,9 @@ bool inside(const Rect& r, const Vec2& p) {
 void draw_band(Paper& paper, const ChartLayout& layout, const Band& band) {
   std::vector<Vec2> upper, lower;
   const auto flush = [&] {
-    paper.band(std::move(upper), std::move(lower), band.colour, 0.28);
+    std::vector<Vec2> edge = upper;
+    paper.band(std::move(upper), std::move(lower), band.colour, band.opacity);
+    if (band.outlined) paper.line(std::move(edge), {ink, 0.6, Line::solid});
     upper.clear();
     lower.clear();
   };
@@ -79,10 +82,24 @@ void draw_points(Paper& paper, const ChartLayout& layout, const Series& series) 
       draw_error(paper, layout, high.x, low.y, high.y, series.colour);
   }
   const Marker marker = series.marker == Marker::none ? Marker::circle : series.marker;  // a lonely point
-  for (const Vec2& p : markers_of(layout, series)) paper.marker(marker, p, 0.52 * layout.text, series.colour);
+  for (const Vec2& p : markers_of(layout, series))
+    paper.marker(marker, p, 0.52 * layout.text, series.colour, series.hollow);
 }
 
-double luminance(const Colour& c) { return 0.299 * c.red + 0.587 * c.green + 0.114 * c.blue; }
+/// Black or white, whichever is read better on a ground.
+Colour ink_on(const Colour& ground) {
+  return contrast(ground, ink) >= contrast(ground, {1, 1, 1}) ? ink : Colour{1, 1, 1};
+}
+
+void label_bands(Paper& paper, const ChartLayout& layout) {
+  for (std::size_t b = 0; b < layout.inside.size(); ++b) {
+    if (!layout.inside[b]) continue;
+    const Band& band = layout.chart->bands[b];
+    const Vec2& at = *layout.inside[b];
+    paper.text(band.label, {at.x, at.y + cap_height * layout.text / 2},
+               {layout.text, Anchor::middle, ink_on(band.colour), false, false});
+  }
+}
 
 /// Height (px) of a bar's error beyond its end.
 double error_height(const ChartLayout& layout, const Bar& bar) {
@@ -110,7 +127,7 @@ void print_value(Paper& paper, const ChartLayout& layout, const Bar& bar) {
     const Vec2 middle = bar.rect.middle();
     const double height = cap_height * value.size;
     if (bar.rect.height() < height + 3 || value.width > bar.rect.width() + 8) return;  // no room in this part
-    style.colour = luminance(bars.colours[bar.series]) < 0.55 ? Colour{1, 1, 1} : ink;
+    style.colour = ink_on(bars.colours[bar.series]);
     style.upward = false;
     paper.text(value.text, {middle.x, middle.y + height / 2}, style);
     return;
@@ -122,7 +139,9 @@ void print_value(Paper& paper, const ChartLayout& layout, const Bar& bar) {
 void draw_bars(Paper& paper, const ChartLayout& layout) {
   const Bars& bars = *layout.chart->bars;
   for (const Bar& bar : bars_of(layout)) {
-    paper.rectangle(bar.rect, bars.colours[bar.series]);
+    const Pattern pattern = bar.series < bars.patterns.size() ? bars.patterns[bar.series] : Pattern::none;
+    paper.rectangle(bar.rect, pattern == Pattern::none ? bars.colours[bar.series] : Colour{1, 1, 1});
+    paper.hatch(bar.rect, pattern, hatch_gap, {bars.colours[bar.series], hatch_width, Line::solid});
     paper.frame(bar.rect, {ink, 0.6, Line::solid});
     const double end = bar.value < 0 ? bar.rect.bottom : bar.rect.top, half = error_height(layout, bar);
     if (half > 0) draw_error(paper, layout, bar.rect.middle().x, end + half, end - half, ink);
@@ -140,10 +159,33 @@ ValueText value_text(const ChartLayout& layout, const Bar& bar) {
   ValueText value;
   value.text = fmt::format(fmt::runtime(layout.chart->bars->value_format), bar.value);
   if (!value.text.empty() && value.text.front() == '-') value.text.replace(0, 1, "\u2212");
-  value.size = 0.88 * layout.text;
+  value.size = layout.text;
   value.width = text_width(value.text, value.size);
   value.upward = value.width > 1.25 * bar.rect.width();
   return value;
+}
+
+std::optional<Vec2> place_inside(const ChartLayout& layout, const Band& band) {
+  const double width = text_width(band.label, layout.text) + 6;
+  std::optional<Vec2> best;
+  double most = 1.25 * layout.text;  // the least room
+  for (double left = layout.plot.left; left + width <= layout.plot.right; left += 4) {
+    double top = layout.plot.top, bottom = layout.plot.bottom;
+    bool reached = false;
+    for (std::size_t i = 0; i < band.x.size(); ++i) {
+      const Vec2 high = layout.at(band.x[i], band.high[i], band.side);
+      if (high.x < left - 2) continue;
+      top = std::max(top, high.y);
+      bottom = std::min(bottom, layout.down(band.low[i], band.side));
+      reached = high.x >= left + width;
+      if (reached) break;
+    }
+    if (reached && bottom - top > most) {
+      most = bottom - top;
+      best = Vec2{left + width / 2, (top + bottom) / 2};
+    }
+  }
+  return best;
 }
 
 std::vector<Bar> bars_of(const ChartLayout& layout) {
@@ -247,6 +289,7 @@ Occupancy data_occupancy(const ChartLayout& layout, const Paper& paper) {
 
 void draw_data(Paper& paper, const ChartLayout& layout) {
   for (const Band& band : layout.chart->bands) draw_band(paper, layout, band);
+  label_bands(paper, layout);
   if (layout.chart->bars) draw_bars(paper, layout);
   for (const Series& series : layout.chart->series)
     for (auto& piece : curve_of(layout, series))

@@ -125,28 +125,6 @@ Scale x_scale(const Axis& axis, const Range& data, bool tight, double width, dou
   }
 }
 
-/// Breaks a name at blanks and "\n" so that its lines are not wider than `width`, where that is possible.
-std::vector<std::string> wrapped(const std::string& text, double width, double size) {
-  std::vector<std::string> lines(1);
-  std::string word;
-  const auto flush = [&] {
-    if (word.empty()) return;
-    const std::string longer = lines.back().empty() ? word : lines.back() + " " + word;
-    if (lines.back().empty() || text_width(longer, size) <= width)
-      lines.back() = longer;
-    else
-      lines.push_back(word);
-    word.clear();
-  };
-  for (char c : text) {
-    if (c == ' ' || c == '\n') flush();
-    if (c == '\n') lines.emplace_back();
-    if (c != ' ' && c != '\n') word += c;
-  }
-  flush();
-  return lines;
-}
-
 void make_scales(ChartLayout& layout, const Ranges& ranges) {
   const Chart& chart = *layout.chart;
   if (chart.bars) {
@@ -155,12 +133,8 @@ void make_scales(ChartLayout& layout, const Ranges& ranges) {
     layout.x.high = std::max(0.5, static_cast<double>(chart.bars->categories.size()) - 0.5);
     layout.categories.clear();
     const double slot = layout.plot.width() / std::max<std::size_t>(1, chart.bars->categories.size());
-    double widest = 0;
-    for (const auto& name : chart.bars->categories) {
+    for (const auto& name : chart.bars->categories)
       layout.categories.push_back(wrapped(name, 0.94 * slot, layout.text));
-      for (const auto& line : layout.categories.back()) widest = std::max(widest, text_width(line, layout.text));
-    }
-    layout.category_text = layout.text * std::clamp(0.96 * slot / std::max(widest, 1.0), 0.7, 1.0);
   } else {
     Range x = ranges.x;
     const double air = (ranges.marked ? 0.04 : 0.02) * (x.high - x.low);
@@ -183,21 +157,22 @@ void make_scales(ChartLayout& layout, const Ranges& ranges) {
 Rect margins(const ChartLayout& layout) {
   const Chart& chart = *layout.chart;
   const double text = layout.text, title = layout.title_size();
-  const auto side = [&](const Scale& scale, const Axis& axis) {
+  const auto side = [&](const Scale& scale, const std::vector<std::string>& lines) {
     double room = 4 + widest_label(scale, text) + label_gap;
-    if (!axis.title.empty()) room += 1.45 * title;
+    if (!lines.empty()) room += (0.25 + 1.2 * static_cast<double>(lines.size())) * title;
     return room;
   };
   Rect m;
-  m.left = side(layout.left, chart.left);
-  m.right = layout.has_right ? side(layout.right, chart.right) : 8;
+  m.left = side(layout.left, layout.left_title);
+  m.right = layout.has_right ? side(layout.right, layout.right_title) : 8;
   m.top = 8;
   if (!layout.left.multiplier.empty() || (layout.has_right && !layout.right.multiplier.empty())) m.top += 1.2 * text;
   if (!chart.title.empty()) m.top += 1.9 * title;
   std::size_t lines = 1;
   for (const auto& name : layout.categories) lines = std::max(lines, name.size());
   m.bottom = 6 + label_gap + (0.8 + 1.2 * static_cast<double>(lines - 1)) * text;
-  if (!chart.x.title.empty() || !layout.x.multiplier.empty()) m.bottom += 1.6 * title;
+  if (!layout.x_title.empty() || !layout.x.multiplier.empty())
+    m.bottom += (0.4 + 1.2 * static_cast<double>(std::max<std::size_t>(1, layout.x_title.size()))) * title;
   for (const Tick& tick : layout.x.ticks) {  // labels at the ends of the x axis reach over it
     const double half = text_width(tick.label, text) / 2 + 2;
     m.left = std::max(m.left, half - layout.x.share(tick.value) * layout.plot.width());
@@ -238,6 +213,27 @@ void place_legend(ChartLayout& layout, const Vec2& size) {
 
 }  // namespace
 
+std::vector<std::string> wrapped(const std::string& text, double width, double size) {
+  std::vector<std::string> lines(1);
+  std::string word;
+  const auto flush = [&] {
+    if (word.empty()) return;
+    const std::string longer = lines.back().empty() ? word : lines.back() + " " + word;
+    if (lines.back().empty() || text_width(longer, size) <= width)
+      lines.back() = longer;
+    else
+      lines.push_back(word);
+    word.clear();
+  };
+  for (char c : text) {
+    if (c == ' ' || c == '\n') flush();
+    if (c == '\n') lines.emplace_back();
+    if (c != ' ' && c != '\n') word += c;
+  }
+  flush();
+  return lines;
+}
+
 ChartLayout lay_out(const Chart& chart, const Rect& area, double text, Chart::Legend legend) {
   Ranges ranges = ranges_of(chart);
   ChartLayout layout;
@@ -245,12 +241,21 @@ ChartLayout lay_out(const Chart& chart, const Rect& area, double text, Chart::Le
   layout.area = area;
   layout.text = text;
   layout.has_right = ranges.has_right;
-  const auto keys = legend_keys(chart);
-  layout.legend = keys.empty() ? Chart::Legend::none : legend;
+  layout.inside.resize(chart.bands.size());
   layout.plot = {area.left + 4 * text, area.top + text, area.right - text, area.bottom - 3.5 * text};
+  const auto lines = [&](const std::string& title, double room) {
+    return title.empty() ? std::vector<std::string>{} : wrapped(title, room - 4, layout.title_size());
+  };
+  layout.x_title = lines(chart.x.title, area.width());
   Vec2 size;
-  for (int pass = 0; pass < 2; ++pass) {  // ticks depend on the plot's size, and the plot on the ticks' labels
+  constexpr int passes = 3;
+  // Ticks depend on the plot's size, the plot on the ticks' labels and on the legend, and that on which bands hold theirs.
+  for (int pass = 0; pass < passes; ++pass) {
+    layout.left_title = lines(chart.left.title, layout.plot.bottom - area.top);
+    layout.right_title = lines(chart.right.title, layout.plot.bottom - area.top);
     make_scales(layout, ranges);
+    const auto keys = legend_keys(layout);
+    layout.legend = keys.empty() ? Chart::Legend::none : legend;
     const Rect m = margins(layout);
     size = legend_size(layout, keys, area.width() - 8);
     layout.plot = {area.left + m.left, area.top + m.top, area.right - m.right, area.bottom - m.bottom};
@@ -258,6 +263,11 @@ ChartLayout lay_out(const Chart& chart, const Rect& area, double text, Chart::Le
     if (layout.legend == Chart::Legend::outside_right) layout.plot.right -= size.x + text;
     layout.plot.right = std::max(layout.plot.right, layout.plot.left + 20);
     layout.plot.bottom = std::max(layout.plot.bottom, layout.plot.top + 20);
+    for (std::size_t b = 0; b < chart.bands.size(); ++b) {
+      const bool may = chart.bands[b].inside && !chart.bands[b].label.empty() && (pass == 0 || layout.inside[b]);
+      const std::optional<Vec2> place = may ? place_inside(layout, chart.bands[b]) : std::nullopt;
+      if (pass < passes - 1 || place) layout.inside[b] = place;  // a bigger plot has room where a smaller one had
+    }
   }
   place_legend(layout, size);
   return layout;

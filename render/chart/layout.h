@@ -12,7 +12,7 @@
 namespace render {
 
 constexpr Colour ink{0.12, 0.12, 0.12};
-constexpr double tick_length = 5, minor_tick_length = 3, label_gap = 5;
+constexpr double tick_length = 5, minor_tick_length = 3, label_gap = 5, hatch_gap = 3.6, hatch_width = 1.1;
 
 /// The key of a legend to one thing drawn: its sample and its label.
 struct LegendKey {
@@ -23,18 +23,21 @@ struct LegendKey {
   Line line = Line::none;
   double width = 1;
   Marker marker = Marker::none;
+  bool hollow = false;
+  Pattern pattern = Pattern::none;
 };
 
 struct ChartLayout {
   const Chart* chart = nullptr;
-  Rect area, plot;            ///< all that the chart may use; the frame of its data
-  double text = 12;           ///< size of tick labels (px)
-  double category_text = 12;  ///< of names under bars
+  Rect area, plot;   ///< all that the chart may use; the frame of its data
+  double text = 12;  ///< size of tick labels (px)
   Scale x, left, right;
   bool has_right = false;
   Chart::Legend legend = Chart::Legend::none;
   Rect legend_box;
-  std::vector<std::vector<std::string>> categories;  ///< names under bars, in lines
+  std::vector<std::vector<std::string>> categories;           ///< names under bars, in lines
+  std::vector<std::string> x_title, left_title, right_title;  ///< in lines
+  std::vector<std::optional<Vec2>> inside;                    ///< middle of the label of each band that holds its own
 
   [[nodiscard]] double title_size() const { return text * 1.08; }
   [[nodiscard]] const Scale& scale(Side side) const { return side == Side::left ? left : right; }
@@ -55,10 +58,17 @@ struct Bar {
 /// Scales and places for a chart in `area`, its legend at `legend`, whatever the chart asks for; none without labels.
 ChartLayout lay_out(const Chart& chart, const Rect& area, double text, Chart::Legend legend);
 
-std::vector<LegendKey> legend_keys(const Chart& chart);
+/// Breaks a text at blanks and "\n" so that its lines are not wider than `width`, where that is possible.
+std::vector<std::string> wrapped(const std::string& text, double width, double size);
+
+/// What the legend explains: all that has a label and does not hold it.
+std::vector<LegendKey> legend_keys(const ChartLayout& layout);
 Vec2 legend_size(const ChartLayout& layout, const std::vector<LegendKey>& keys, double max_width);
 
 std::vector<Bar> bars_of(const ChartLayout& layout);
+
+/// Where the label of a band has most room in it; nothing when it has too little everywhere.
+std::optional<Vec2> place_inside(const ChartLayout& layout, const Band& band);
 
 /// The printed value of a bar; it stands upright where bars are too narrow for it.
 struct ValueText {

@@ -56,14 +56,23 @@ void linear_range(Scale& scale, const Axis& axis, const Range& data, int wanted,
   scale.high = high;
 }
 
+/// A step that gives at least three labels, as many as `wanted` where that is more.
+double tick_step(const Scale& scale, int wanted) {
+  for (;; ++wanted) {
+    const double step = round_step((scale.high - scale.low) / wanted);
+    const double first = std::ceil(scale.low / step - 1e-6), last = std::floor(scale.high / step + 1e-6);
+    if (!(last - first < 2) || wanted > 12) return step;
+  }
+}
+
 void linear_ticks(Scale& scale, int wanted) {
-  const double step = round_step((scale.high - scale.low) / wanted);
+  const double step = tick_step(scale, wanted);
   const double largest = std::max(std::abs(scale.low), std::abs(scale.high));
   const int exponent = static_cast<int>(std::floor(std::log10(largest) + 1e-9));
   double unit = 1;
   if (exponent >= 5 || exponent <= -4) {
     unit = std::pow(10, exponent);
-    scale.multiplier = "\u00d7" + power_of_ten(exponent);
+    scale.multiplier = "\u00d7\u00a0" + power_of_ten(exponent);
   }
   const int digits = decimals(step / unit);
   const double first = std::ceil(scale.low / step - 1e-6);
@@ -94,14 +103,17 @@ void log_range(Scale& scale, const Axis& axis, const Range& data, bool tight) {
 void log_ticks(Scale& scale, int wanted) {
   const int first = static_cast<int>(std::floor(std::log10(scale.low) + 1e-9));
   const int last = static_cast<int>(std::ceil(std::log10(scale.high) - 1e-9));
-  const bool few = std::log10(scale.high / scale.low) < 1.5;  // also 2 and 5 carry labels
+  const double span = std::log10(scale.high / scale.low);
+  const bool few = span < 2;          // also 2 and 5 carry labels
+  const bool very_few = span < 0.75;  // all of 1 ... 9 do
   const int every = std::max(1, (last - first + wanted - 1) / wanted);
   const bool plain = first >= -3 && last <= 4 && every == 1;
   for (int decade = first; decade <= last; ++decade)
     for (int factor = 1; factor < 10; ++factor) {
       const double value = factor * std::pow(10, decade);
       if (value < scale.low * (1 - 1e-9) || value > scale.high * (1 + 1e-9)) continue;
-      const bool labelled = (factor == 1 && (decade - first) % every == 0) || (few && (factor == 2 || factor == 5));
+      const bool labelled =
+          (factor == 1 && (decade - first) % every == 0) || (few && (factor == 2 || factor == 5)) || very_few;
       if (!labelled && every > 1 && factor != 1) continue;
       std::string label;
       if (labelled && (plain || few)) label = plain_number(value, std::max(0, -decade));

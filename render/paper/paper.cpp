@@ -31,7 +31,25 @@ void Paper::frame(const Rect& r, const Stroke& stroke) {
        stroke);
 }
 
-void Paper::marker(Marker marker, const Vec2& at, double size, const Colour& colour) {
+void Paper::hatch(const Rect& r, Pattern pattern, double gap, const Stroke& stroke) {
+  if (pattern == Pattern::none) return;
+  const double height = r.height(), step = gap * std::numbers::sqrt2;
+  // Lines keep their places on the paper, so that bars beside each other are hatched alike.
+  for (double k = std::ceil((r.left - height) / step); k * step < r.right; ++k) {
+    const Vec2 low{k * step, r.bottom}, high{k * step + height, r.top};
+    const std::vector<Vec2> across = pattern == Pattern::rising ? std::vector<Vec2>{low, high}
+                                                                : std::vector<Vec2>{{low.x, r.top}, {high.x, r.bottom}};
+    for (auto& piece : clip(across, r)) line(std::move(piece), stroke);
+  }
+}
+
+void Paper::marker(Marker marker, const Vec2& at, double size, const Colour& colour, bool hollow) {
+  if (hollow && marker != Marker::none && marker != Marker::cross) {
+    this->marker(marker, at, size + 2.4, colour);
+    // The rim of a triangle is as wide as that of a circle when its middle shrinks by twice as much.
+    this->marker(marker, at, marker == Marker::triangle ? size - 2.6 : size - 0.8, {1, 1, 1});
+    return;
+  }
   const double r = size / 2;
   const auto corners = [&](int count, double turn, double radius) {
     std::vector<Vec2> points;
@@ -69,7 +87,7 @@ void Paper::marker(Marker marker, const Vec2& at, double size, const Colour& col
 void Paper::text(const std::string& text, const Vec2& at, const TextStyle& style) {
   const std::vector<Piece> pieces = pieces_of(text);
   if (pieces.size() == 1 && pieces[0].shift == 0) {  // the reader's own font may differ: keep the anchor
-    items_.emplace_back(Run{at, pieces[0].text, style});
+    items_.emplace_back(Run{at, pieces[0].text, style, false});
     return;
   }
   const double width = text_width(text, style.size, style.bold);
@@ -80,7 +98,7 @@ void Paper::text(const std::string& text, const Vec2& at, const TextStyle& style
     own.size = style.size * piece.scale;
     const double rise = piece.shift * style.size;
     const Vec2 place = style.upward ? Vec2{at.x - rise, at.y - along} : Vec2{at.x + along, at.y - rise};
-    items_.emplace_back(Run{place, piece.text, own});
+    items_.emplace_back(Run{place, piece.text, own, piece.shift != 0});
     along += run_width(piece.text, own.size, own.bold);
   }
 }

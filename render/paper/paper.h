@@ -58,6 +58,7 @@ struct Run {
   Vec2 at;
   std::string text;
   TextStyle style;
+  bool index = false;  ///< an index or exponent, smaller than the text that it belongs to
 };
 
 class Paper {
@@ -71,7 +72,10 @@ class Paper {
   void band(std::vector<Vec2> upper, std::vector<Vec2> lower, const Colour& colour, double opacity);
   void line(std::vector<Vec2> points, const Stroke& stroke);
   void frame(const Rect& rect, const Stroke& stroke);
-  void marker(Marker marker, const Vec2& at, double size, const Colour& colour);
+  /// Lines of a pattern across a rectangle, `gap` apart.
+  void hatch(const Rect& rect, Pattern pattern, double gap, const Stroke& stroke);
+  /// Hollow: an outline filled with white.
+  void marker(Marker marker, const Vec2& at, double size, const Colour& colour, bool hollow = false);
   /// `at` is on the base line. Understands _{...} and ^{...} for text set lower or higher in a smaller size.
   void text(const std::string& text, const Vec2& at, const TextStyle& style);
 

@@ -71,8 +71,8 @@ void add(Triangles& out, const Mapper& map, const Path& path) {
 
 void add(Triangles&, const Mapper&, const Run&) {}  // text is drawn by write()
 
-Image shapes(Offscreen& offscreen, const Paper& paper, int scale) {
-  const Mapper map{static_cast<double>(scale), static_cast<double>(paper.width()), static_cast<double>(paper.height())};
+Image shapes(Offscreen& offscreen, const Paper& paper, double scale, int width, int height) {
+  const Mapper map{scale, static_cast<double>(paper.width()), static_cast<double>(paper.height())};
   Triangles triangles;
   for (const auto& item : paper.items()) std::visit([&](const auto& it) { add(triangles, map, it); }, item);
   vtkNew<vtkRenderer> renderer;
@@ -82,13 +82,13 @@ Image shapes(Offscreen& offscreen, const Paper& paper, int scale) {
   camera.SetPosition(0, 0, 10);
   camera.SetFocalPoint(0, 0, 0);
   camera.SetParallelProjection(1);
-  camera.SetParallelScale(scale * paper.height() / 2.0);
+  camera.SetParallelScale(height / 2.0);
   camera.SetClippingRange(1, 20);
-  return offscreen.frame(*renderer, scale * paper.width(), scale * paper.height());
+  return offscreen.frame(*renderer, width, height);
 }
 
 /// Writes a run of text into the image, whose pixels are `scale` to one of the paper's.
-void write(Image& image, const Run& run, int scale) {
+void write(Image& image, const Run& run, double scale) {
   if (run.text.empty()) return;
   const TextStyle& style = run.style;
   vtkNew<vtkTextProperty> property;
@@ -133,9 +133,11 @@ void write(Image& image, const Run& run, int scale) {
 
 }  // namespace
 
-Image to_image(Offscreen& offscreen, const Paper& paper, int scale) {
+Image to_image(Offscreen& offscreen, const Paper& paper, double scale) {
   constexpr int smoothing = 3;
-  Image large = shapes(offscreen, paper, scale * smoothing);
+  const int width = smoothing * static_cast<int>(std::lround(scale * paper.width()));
+  const int height = smoothing * static_cast<int>(std::lround(scale * paper.height()));
+  Image large = shapes(offscreen, paper, scale * smoothing, width, height);
   for (const auto& item : paper.items())
     if (const Run* run = std::get_if<Run>(&item)) write(large, *run, scale * smoothing);
   return shrink(large, smoothing);

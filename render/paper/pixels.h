@@ -5,6 +5,7 @@
 
 namespace render {
 
-Image to_image(Offscreen& offscreen, const Paper& paper, int scale);  ///< at `scale` times its size
+/// At `scale` times its size, rounded to whole pixels.
+Image to_image(Offscreen& offscreen, const Paper& paper, double scale);
 
 }  // namespace render

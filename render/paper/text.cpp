@@ -5,8 +5,11 @@
 #include <vtkTextProperty.h>
 #include <vtkTextRenderer.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "engine/core/errors.h"
@@ -62,6 +65,25 @@ double run_width(const std::string& text, double size, bool bold) {
   return entry->second * size / measured;
 }
 
+namespace {
+
+constexpr double index_scale = 0.72, lower_shift = -0.18, raised_shift = 0.36;
+
+/// A character that Unicode has as an index or exponent: what it is in full size, and where it goes.
+struct SmallForm {
+  std::string_view form, full;
+  double shift;
+};
+constexpr SmallForm small_forms[] = {
+    {"₀", "0", lower_shift},  {"₁", "1", lower_shift},  {"₂", "2", lower_shift},  {"₃", "3", lower_shift},
+    {"₄", "4", lower_shift},  {"ₙ", "n", lower_shift},  {"ₛ", "s", lower_shift},  {"ₚ", "p", lower_shift},
+    {"ᵤ", "u", lower_shift},  {"ᵢ", "i", lower_shift},  {"ₘ", "m", lower_shift},  {"⁰", "0", raised_shift},
+    {"¹", "1", raised_shift}, {"²", "2", raised_shift}, {"³", "3", raised_shift}, {"⁴", "4", raised_shift},
+    {"⁵", "5", raised_shift}, {"⁶", "6", raised_shift}, {"⁷", "7", raised_shift}, {"⁸", "8", raised_shift},
+    {"⁹", "9", raised_shift}, {"⁻", "−", raised_shift}};
+
+}  // namespace
+
 std::vector<Piece> pieces_of(const std::string& text) {
   std::vector<Piece> pieces;
   std::string plain;
@@ -69,7 +91,22 @@ std::vector<Piece> pieces_of(const std::string& text) {
     if (!plain.empty()) pieces.push_back({plain, 1, 0});
     plain.clear();
   };
+  const auto add_small = [&](const SmallForm& small) {
+    flush();
+    if (!pieces.empty() && pieces.back().shift == small.shift)
+      pieces.back().text += small.full;
+    else
+      pieces.push_back({std::string(small.full), index_scale, small.shift});
+  };
   for (std::size_t i = 0; i < text.size();) {
+    const auto* small = std::find_if(std::begin(small_forms), std::end(small_forms), [&](const SmallForm& one) {
+      return text.compare(i, one.form.size(), one.form) == 0;
+    });
+    if (small != std::end(small_forms)) {
+      add_small(*small);
+      i += small->form.size();
+      continue;
+    }
     const bool lower = text.compare(i, 2, "_{") == 0, higher = text.compare(i, 2, "^{") == 0;
     const std::size_t end = lower || higher ? text.find('}', i) : std::string::npos;
     if (end == std::string::npos) {
@@ -77,7 +114,7 @@ std::vector<Piece> pieces_of(const std::string& text) {
       continue;
     }
     flush();
-    pieces.push_back({text.substr(i + 2, end - i - 2), 0.72, lower ? -0.18 : 0.36});
+    pieces.push_back({text.substr(i + 2, end - i - 2), index_scale, lower ? lower_shift : raised_shift});
     i = end + 1;
   }
   flush();

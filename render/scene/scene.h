@@ -1,7 +1,7 @@
 #pragma once
 // Scenes: a specimen drawn as spheres, discs (cracks) and lines (axes), in one camera view. Lengths in metres.
-// Text, legends and scale bars are not part of the raster: the page composes them (render::SceneResult tells the
-// scale).
+// Legends and scale bars are not part of the raster: the page composes them (render::SceneResult tells the scale). What
+// belongs to the picture wherever it goes stands in a strip below it: the directions of the axes and the bar of colours.
 #include <array>
 #include <optional>
 #include <string>
@@ -33,8 +33,9 @@ struct Discs {
 struct Polyline {
   std::vector<Point> points;
   Colour colour;
-  double width = 2;  ///< px
+  double width = 2;  ///< px of the page
   Line line = Line::solid;
+  bool cased = false;  ///< with a white seam, to be seen on any ground
 };
 
 /// A surface outline of the specimen: a transparent cylinder or box.
@@ -54,6 +55,13 @@ struct Camera {
   std::optional<std::array<Point, 2>> frame;
 };
 
+/// What colours that stand for values mean.
+struct ColourBar {
+  std::string title;  ///< with the unit: "Mean stress (10⁻³ k), tension positive"
+  double low = 0, high = 1;
+  std::vector<Colour> colours;  ///< from low to high, in equal steps
+};
+
 struct Scene {
   std::vector<Spheres> spheres;
   std::vector<Discs> discs;
@@ -65,17 +73,23 @@ struct Scene {
     Point point{}, normal{0, 1, 0};
   };
   std::vector<Cut> cuts;
-  int width = 800, height = 1200;  ///< px
+  int width = 800, height = 1200;  ///< px, without the strip below
   Colour background{1, 1, 1};
+  bool axes = false;               ///< the directions of x, y and z in the strip
+  std::optional<ColourBar> bar{};  ///< in the strip
+  /// Width of the picture on the page (px there, see render::page_width): for text, and lines as wide as in charts. 0:
+  /// width.
+  double shown = 0;
+  [[nodiscard]] double pen() const { return shown > 0 ? width / shown : 1; }  ///< pixels to one of the page
 };
 
 /// What the page must know about a drawn scene.
 struct SceneResult {
   double metres_per_pixel = 0;  ///< parallel projection only
-  int width = 0, height = 0;
-  Point centre{};       ///< the point in the middle of the picture
-  Point right{}, up{};  ///< unit vectors along the picture's sides: a point p is drawn (p - centre) . right /
-                        ///< metres_per_pixel to the right of the middle
+  int width = 0, height = 0;    ///< the strip included
+  Point centre{};               ///< the point in the middle of the picture, without the strip
+  Point right{}, up{};          ///< unit vectors along the picture's sides: a point p is drawn (p - centre) . right /
+                                ///< metres_per_pixel to the right of the middle
 };
 
 }  // namespace render

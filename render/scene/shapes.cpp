@@ -89,13 +89,13 @@ std::vector<std::vector<Point>> kept_runs(const std::vector<Point>& points, cons
 void ribbon(Triangles& out, const View& view, const std::vector<Point>& line, const Polyline& style, double lift) {
   std::vector<std::array<double, 2>> flat;
   for (const Point& p : line) flat.push_back({p[0] * view.magnification(p[2]), p[1] * view.magnification(p[2])});
-  for (const DashPiece& piece : dashes(flat, style.line, style.width)) {
+  for (const DashPiece& piece : dashes(flat, style.line, view.pen * style.width)) {
     const Point step = line[piece.segment + 1] - line[piece.segment];
     const Point a = line[piece.segment] + piece.from * step, b = line[piece.segment] + piece.to * step;
     const auto &fa = flat[piece.segment], &fb = flat[piece.segment + 1];
     const double dx = fb[0] - fa[0], dy = fb[1] - fa[1], length = std::hypot(dx, dy);
     if (length <= 0) continue;
-    const double half = style.width / 2;
+    const double half = view.pen * style.width / 2;
     const double ex = dx / length * half, ey = dy / length * half;  // half a width along the line
     const auto corner = [&](const Point& p, double along, double side) {
       const double scale = 1 / view.magnification(p[2]);
@@ -145,9 +145,10 @@ void add_discs(Triangles& out, const Scene& scene, const View& view, const Discs
     const double facing = std::abs(dot(normal, view.back));
     out.polygon(face, shade(discs.colour[i], 0.78 + 0.22 * facing));
     face.push_back(face.front());
-    const double width = std::clamp(0.18 * radius_px, 0.6, 1.4);
+    const double radius_seen = radius_px / view.pen;
+    const double width = std::clamp(0.18 * radius_seen, 0.4, 1.0);
     // Around a small disc a dark edge would be most of what is seen.
-    const double tone = std::clamp(1.05 - 0.1 * radius_px, 0.45, 0.85);
+    const double tone = std::clamp(1.05 - 0.1 * radius_seen, 0.45, 0.85);
     ribbon(out, view, face, Polyline{{}, shade(discs.colour[i], tone), width, Line::solid}, 0.4);
   }
 }
@@ -168,7 +169,7 @@ void add_cut_faces(Triangles& out, const Scene& scene, const View& view, const S
       out.polygon(to_view(view, face), spheres.colour[i]);
       face.push_back(face.front());
       if (spheres.cut_edges && radius_px > 2)
-        ribbon(out, view, to_view(view, face), Polyline{{}, shade(spheres.colour[i], 0.72), 0.7, Line::solid}, 0.05);
+        ribbon(out, view, to_view(view, face), Polyline{{}, shade(spheres.colour[i], 0.72), 0.4, Line::solid}, 0.05);
     }
   }
 }
@@ -242,7 +243,7 @@ void add_outline_edges(Triangles& out, const Scene& scene, const View& view) {
                                                                      : box_edges(scene.outline, view);
   const Colour seen = shade(scene.outline.colour, 0.55);
   for (const Edge& edge : edges) {
-    const Polyline style{edge.points, edge.hidden ? scene.outline.colour : seen, edge.hidden ? 1.0 : 1.5,
+    const Polyline style{edge.points, edge.hidden ? scene.outline.colour : seen, edge.hidden ? 0.7 : 1.0,
                          edge.hidden ? Line::dash : Line::solid};
     world_line(out, scene, view, style, 0);
   }
@@ -301,6 +302,7 @@ Point View::to_view(const Point& world) const {
 
 View fit_view(const Scene& scene) {
   View view;
+  view.pen = scene.pen();
   const Point direction = unit(scene.camera.direction);
   view.back = -1.0 * (dot(direction, direction) > 0 ? direction : Point{0, -1, 0});
   Point right = cross(scene.camera.up, view.back);
@@ -373,6 +375,8 @@ Triangles opaque_shapes(const Scene& scene, const View& view) {
   for (const auto& spheres : scene.spheres)
     if (spheres.opacity >= 1) add_cut_faces(out, scene, view, spheres);
   for (const auto& discs : scene.discs) add_discs(out, scene, view, discs);
+  for (const auto& line : scene.lines)
+    if (line.cased) world_line(out, scene, view, {line.points, {1, 1, 1}, line.width + 1.3, Line::solid}, 0.4);
   for (const auto& line : scene.lines) world_line(out, scene, view, line, 0.5);
   if (scene.outline.shape != Outline::Shape::none) add_outline_edges(out, scene, view);
   return out;

@@ -22,6 +22,7 @@ struct View {
   double eye = 0;                ///< perspective: distance of the eye from the origin (px); 0: parallel
   double near_z = 0, far_z = 0;  ///< z of the nearest and farthest point of the scene (px)
   double over_z = 0;             ///< added to z of what is drawn over everything
+  double pen = 1;                ///< pixels to one of the page
   [[nodiscard]] Point to_view(const Point& world) const;
   /// Pixels of the picture a unit of length at depth z covers.
   [[nodiscard]] double magnification(double z) const { return eye > 0 ? eye / (eye - z) : 1.0; }

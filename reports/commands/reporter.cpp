@@ -85,6 +85,7 @@ bool Reporter::report(const dem::Study& study, const std::vector<dem::CaseOutcom
   report.only = options_.figure;
   report.again = again;
   report.engine_version = DEM_VERSION;
+  report.dpi = options_.dpi;
   report.workers = options_.threads;
   report.pdf_seconds = options_.pdf_seconds;
   if (options_.stop) report.stopped = [stop = options_.stop] { return stop->load(); };

@@ -20,6 +20,7 @@ struct ReporterOptions {
   bool pdf = true;
   std::string figure;                    ///< draw only this one; "": all
   std::string part;                      ///< folder below that of the study; "": that of the study
+  double dpi = 300;                      ///< of pictures
   int threads = 1;                       ///< processes to draw in
   bool quiet = false;                    ///< do not name the files on stdout
   bool strict = false;                   ///< a published number that is missed is not well

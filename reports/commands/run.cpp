@@ -35,6 +35,7 @@ ReporterOptions reporter_options(const RunRequest& request) {
   options.pdf = request.pdf;
   options.figure = request.figure;
   options.part = part_folder(request);
+  options.dpi = request.dpi;
   options.threads = request.threads;
   options.quiet = request.quiet;
   options.strict = request.strict;
@@ -218,6 +219,13 @@ std::vector<Option> report_options() {
        .kind = OptionKind::list,
        .standard = "html,pdf",
        .choices = {"html", "pdf"}},
+      {.name = "dpi",
+       .value = "N",
+       .help = "resolution of pictures, 85 mm wide in a column and 170 mm over the page",
+       .kind = OptionKind::number,
+       .standard = "300",
+       .low = 72,
+       .high = 1200},
       {.name = "pdf-timeout",
        .value = "SECONDS",
        .help = "the longest that printing the PDF may take",
@@ -234,6 +242,7 @@ void take_report_options(const Arguments& arguments, RunRequest& request) {
   const auto& formats = arguments.texts("format");
   request.html = std::ranges::find(formats, "html") != formats.end();
   request.pdf = std::ranges::find(formats, "pdf") != formats.end();
+  request.dpi = static_cast<double>(arguments.number("dpi"));
   request.pdf_seconds = static_cast<double>(arguments.number("pdf-timeout"));
   request.strict = arguments.has("strict");
 }

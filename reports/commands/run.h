@@ -33,6 +33,7 @@ struct RunRequest {
   bool force = false;
   bool html = true;
   bool pdf = true;
+  double dpi = 0;          ///< --dpi
   double pdf_seconds = 0;  ///< --pdf-timeout
   bool quiet = false;
   bool strict = false;

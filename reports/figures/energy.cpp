@@ -12,8 +12,7 @@
 namespace reports {
 namespace {
 
-constexpr int panel_width = 440;
-constexpr int panel_height = 330;
+constexpr int panel_height = 310;
 
 double largest(std::span<const double> values) {
   double most = 0;
@@ -40,13 +39,25 @@ std::vector<double> work_of(const dem::Table& history, const std::vector<analysi
   return work;
 }
 
+// In the order of the ledgers' shares; neighbours differ by more than 15 for every reader, and in grey.
 render::Colour share_colour(std::size_t index) {
-  constexpr std::array<std::size_t, 7> order{5, 7, 2, 4, 0, 1, 3};
-  return render::palette(order[index % order.size()]);
+  constexpr std::array<render::Colour, 6> colours{{{0.612, 0.773, 0.875},    // elastic
+                                                   {0.110, 0.110, 0.110},    // kinetic
+                                                   {0.671, 0.918, 0.733},    // damping
+                                                   {0.855, 0.549, 0.129},    // friction
+                                                   {0.239, 0.408, 0.533},    // bonds broken in tension
+                                                   {0.455, 0.110, 0.110}}};  // and in shear
+  return colours[index % colours.size()];
 }
 
+/// Ends of the axes that all panels of a figure share.
+struct Reach {
+  double x = 0, energy = 0;  ///< x in its unit; J
+};
+
 render::Chart ledger_chart(const dem::Table& history, const std::string& x_column, const std::string& x_title,
-                           double x_factor, std::pair<double, std::string> unit) {
+                           double x_factor, const Reach& reach) {
+  const auto unit = energy_unit(reach.energy);
   const auto terms = analysis::ledger_terms(history);
   const auto x = scaled(history.real(x_column), x_factor);
   const auto work = work_of(history, terms);
@@ -55,22 +66,27 @@ render::Chart ledger_chart(const dem::Table& history, const std::string& x_colum
   std::size_t shares = 0;
   for (const analysis::LedgerTerm& term : terms) {
     if (term.role != analysis::LedgerTerm::Role::share) continue;
-    render::Band band{.label = term.label, .x = x, .low = base, .high = base, .colour = share_colour(shares++)};
+    render::Band band{.label = term.label,
+                      .x = x,
+                      .low = base,
+                      .high = base,
+                      .colour = share_colour(shares++),
+                      .opacity = 1,
+                      .outlined = true,
+                      .inside = true};
     const auto values = history.real(term.column);
     for (std::size_t i = 0; i < x.size(); ++i) band.high[i] += unit.first * values[i];
     base = band.high;
     chart.bands.push_back(std::move(band));
   }
-  chart.series.push_back({.label = "Work of the boundary",
-                          .x = x,
-                          .y = scaled(work, unit.first),
-                          .colour = {0, 0, 0},
-                          .width = 1.8,
-                          .y_error = {}});
+  chart.series.push_back(
+      {.label = "Work of the boundary", .x = x, .y = scaled(work, unit.first), .colour = {0, 0, 0}, .width = 1.8});
   chart.x.title = x_title;
   chart.left.title = "Energy (" + unit.second + ")";
+  chart.x.low = chart.left.low = 0;
+  chart.x.high = reach.x;
+  chart.left.high = 1.06 * unit.first * reach.energy;
   chart.legend = render::Chart::Legend::top_left;
-  chart.width = panel_width;
   chart.height = panel_height;
   return chart;
 }
@@ -99,13 +115,6 @@ double limit_of(const dem::Record& record) {
   return found == record.checks.end() ? std::nan("") : found->limit;
 }
 
-std::vector<std::string> ledger_labels(const SeriesCase& item) {
-  std::vector<std::string> labels;
-  for (const analysis::LedgerTerm& term : analysis::ledger_terms(item.record->table("history")))
-    labels.push_back(term.label);
-  return labels;
-}
-
 std::string shares_alt(const dem::Table& history) {
   const auto terms = analysis::ledger_terms(history);
   const auto work = work_of(history, terms);
@@ -126,7 +135,7 @@ FigureContent energy_figure(const StudyResult& study, std::string_view test, con
                             const std::string& x_column, const std::string& x_title, double x_factor) {
   FigureContent content;
   if (auto missing = missing_cases(study, test)) content.panels.push_back(*missing);
-  double most = 0;
+  Reach reach;
   std::vector<const SeriesCase*> kept;
   for (const SeriesCase& item : cases) {
     const dem::Table* history = item.record->find("history");
@@ -135,21 +144,19 @@ FigureContent energy_figure(const StudyResult& study, std::string_view test, con
       continue;
     }
     kept.push_back(&item);
-    most = std::max(most, largest(work_of(*history, analysis::ledger_terms(*history))));
+    reach.energy = std::max(reach.energy, largest(work_of(*history, analysis::ledger_terms(*history))));
+    reach.x = std::max(reach.x, x_factor * largest(history->real(x_column)));
   }
   render::Chart residuals;
   double limit = std::nan("");
   double worst = 0;
   for (const SeriesCase* item : kept) {
     const dem::Table& history = item->record->table("history");
-    render::Chart chart = ledger_chart(history, x_column, x_title, x_factor, energy_unit(most));
-    const bool explained = item != kept.front() && ledger_labels(*item) == ledger_labels(*kept.front());
-    if (explained) chart.legend = render::Chart::Legend::none;
-    content.panels.push_back(
-        {.id = item->id,
-         .caption = item->label + (explained ? "; colours as at " + kept.front()->label + "." : "."),
-         .alt = item->label + ", " + shares_alt(history),
-         .content = std::move(chart)});
+    render::Chart chart = ledger_chart(history, x_column, x_title, x_factor, reach);
+    content.panels.push_back({.id = item->id,
+                              .caption = item->label + ".",
+                              .alt = item->label + ", " + shares_alt(history),
+                              .content = std::move(chart)});
     render::Series series = relative_residual(history, x_column, x_factor);
     series.label = item->label;
     series.colour = item->colour;
@@ -172,7 +179,6 @@ FigureContent energy_figure(const StudyResult& study, std::string_view test, con
       residuals.left.low = std::min(1e-6 * limit, 0.1 * worst);
     }
     residuals.legend = render::Chart::Legend::bottom_right;
-    residuals.width = panel_width;
     residuals.height = panel_height;
     content.panels.push_back(
         {.id = "residual",

@@ -23,13 +23,12 @@ std::string id_part(double value) {
 }  // namespace
 
 std::vector<SeriesCase> series_of(const StudyResult& study, std::string_view test, const dem::Parameter& axis) {
-  constexpr std::array lines{render::Line::solid, render::Line::dash, render::Line::dash_dot, render::Line::dot};
   std::vector<SeriesCase> cases;
   for (analysis::Point& point : analysis::series_of(study.cases, test, axis)) {
     const std::size_t i = cases.size();
     const std::string id = fmt::format("{}_{}", axis.in_ids, id_part(point.value));
     cases.push_back(
-        {std::move(point), parameter_words(axis, point.value), id, render::palette(i), lines[i % lines.size()]});
+        {std::move(point), parameter_words(axis, point.value), id, render::palette(i), render::line_style(i)});
   }
   return cases;
 }
@@ -128,6 +127,53 @@ double at_first(std::span<const double> x, std::span<const double> y, double at)
     return y[i - 1] + part * (y[i] - y[i - 1]);
   }
   return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<PublishedPoint> published_points(const StudyResult& study,
+                                             std::initializer_list<std::pair<double, std::string_view>> of) {
+  std::vector<PublishedPoint> points;
+  for (const auto& [x, id] : of) {
+    const double y = study.published_value(id);
+    if (std::isfinite(y)) points.push_back({x, y});
+  }
+  return points;
+}
+
+void add_published(render::Chart& chart, const std::vector<PublishedPoint>& points, const std::string& label) {
+  render::Series series{.label = label,
+                        .x = {},
+                        .y = {},
+                        .colour = published_colour,
+                        .line = render::Line::none,
+                        .marker = render::Marker::diamond,
+                        .hollow = true};
+  for (const PublishedPoint& point : points) {
+    if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
+    series.x.push_back(point.x);
+    series.y.push_back(point.y);
+  }
+  if (!series.x.empty()) chart.series.push_back(std::move(series));
+}
+
+void add_published(render::Bars& bars, const std::vector<double>& values, const std::string& label) {
+  if (std::ranges::none_of(values, [](double v) { return std::isfinite(v); })) return;
+  bars.patterns.resize(bars.values.size(), render::Pattern::none);
+  bars.labels.push_back(label);
+  bars.colours.push_back(published_colour);
+  bars.patterns.push_back(render::Pattern::rising);
+  if (!bars.errors.empty()) bars.errors.emplace_back(values.size(), std::nan(""));
+  bars.values.push_back(values);
+}
+
+void add_published(render::Chart& chart, render::Mark::Kind kind, double value, const std::string& label) {
+  if (!std::isfinite(value)) return;
+  const bool upright = kind == render::Mark::Kind::vertical;
+  chart.marks.push_back({.kind = kind,
+                         .x = upright ? value : 0,
+                         .y = upright ? 0 : value,
+                         .label = label,
+                         .colour = published_colour,
+                         .line = render::Line::dash});
 }
 
 Panel note_panel(std::string id, std::string caption, std::string text) {

@@ -66,6 +66,21 @@ render::Series line_of(double low, double high, const std::function<double(doubl
 /// The y value of a column where `x` first reaches `at`, linear in between; NaN when it never does.
 double at_first(std::span<const double> x, std::span<const double> y, double at);
 
+/// What a paper states, in a chart, where it states it: hollow markers, hatched bars, thin lines with their names, all of
+/// one grey. What is not known is left out; so is all of it for a rock that no paper is about.
+inline constexpr render::Colour published_colour{0.30, 0.30, 0.30};
+struct PublishedPoint {
+  double x = 0, y = 0;
+};
+/// Values by their ids, at places along x; what is not known is no point.
+std::vector<PublishedPoint> published_points(const StudyResult& study,
+                                             std::initializer_list<std::pair<double, std::string_view>> of);
+void add_published(render::Chart& chart, const std::vector<PublishedPoint>& points, const std::string& label);
+/// Beside ours in grouped bars: a value a category, NaN where there is none.
+void add_published(render::Bars& bars, const std::vector<double>& values, const std::string& label = "published");
+/// A line across the chart at a value, "published D_{2}".
+void add_published(render::Chart& chart, render::Mark::Kind kind, double value, const std::string& label);
+
 /// A note in a panel's place.
 Panel note_panel(std::string id, std::string caption, std::string text);
 bool is_note(const Panel& panel);

@@ -21,6 +21,7 @@ namespace reports {
 namespace {
 
 constexpr std::size_t points_in_a_picture = 10000;
+constexpr int pictures_per_row = 3;  // where a figure does not say
 
 /// `key` is what names it: the key "figures" or the option --only.
 const Figure& named_figure(const StudyResult& study, std::string_view id, const std::string& key) {
@@ -49,6 +50,17 @@ struct Drawn {
 
 constexpr std::string_view pictures = "figures/", tables = "data/";
 
+// A picture with as many pixels as it needs in print, and lines and words as wide as in charts. Pictures beside each other
+// share the page.
+render::Scene sized(render::Scene scene, int per_row, double dpi) {
+  scene.shown = static_cast<double>(render::page_width) / std::max(2, per_row);
+  const double mm = scene.shown * render::column_mm / render::column_width;
+  const double factor = mm / 25.4 * dpi / scene.width;
+  scene.width = std::max(1, static_cast<int>(std::lround(factor * scene.width)));
+  scene.height = std::max(1, static_cast<int>(std::lround(factor * scene.height)));
+  return scene;
+}
+
 // The files of a panel, the one to show first.
 std::vector<std::string> files_of(const Panel& panel, const std::string& name) {
   const std::string picture = std::string(pictures) + name, table = std::string(tables) + name + ".csv";
@@ -75,12 +87,11 @@ DrawnPanel described(const Panel& panel, const std::string& name) {
     }
     drawn.width = chart->width;
     drawn.height = chart->height;
-    drawn.per_row = chart->width > 560 ? 1 : 2;
   }
   if (const auto* picture = std::get_if<Picture>(&panel.content)) {
     drawn.label = picture->label;
     drawn.legend = picture->legend;
-    drawn.per_row = 3;
+    drawn.per_row = pictures_per_row;
   }
   if (const auto* table = std::get_if<TextTable>(&panel.content))
     drawn.table = *table;
@@ -92,16 +103,17 @@ DrawnPanel described(const Panel& panel, const std::string& name) {
 }
 
 // Writes the files of a panel.
-render::SceneResult draw(const Job& job, const std::filesystem::path& folder, const CanvasSource& canvas) {
+render::SceneResult draw(const Job& job, const std::filesystem::path& folder, double dpi, const CanvasSource& canvas) {
   std::vector<std::filesystem::path> files;
   for (const std::string& file : files_of(*job.panel, job.name)) files.push_back(dem::inside(folder, file));
   render::SceneResult result;
   if (const auto* chart = std::get_if<render::Chart>(&job.panel->content)) {
-    canvas().draw(sampled(*chart, points_in_a_picture).chart, files[1], files[0], job.facts);
+    canvas().draw(sampled(*chart, points_in_a_picture).chart, files[1], files[0], job.facts, dpi);
     const std::vector<CsvTable> data = csv_tables(*chart);
     for (std::size_t i = 0; i < data.size(); ++i) dem::write_file(files[i + 2], data[i].text());
   } else if (const auto* picture = std::get_if<Picture>(&job.panel->content)) {
-    result = canvas().draw(picture->scene, files[0], job.facts);
+    const int per_row = job.panel->per_row > 0 ? job.panel->per_row : pictures_per_row;
+    result = canvas().draw(sized(picture->scene, per_row, dpi), files[0], job.facts, dpi);
   } else if (const auto* table = std::get_if<TextTable>(&job.panel->content)) {
     dem::write_file(files[0], csv(*table));
   } else {
@@ -110,8 +122,8 @@ render::SceneResult draw(const Job& job, const std::filesystem::path& folder, co
   return result;
 }
 
-Drawn drawn_by(const Job& job, const std::filesystem::path& folder, const CanvasSource& canvas) {
-  Drawn drawn{draw(job, folder, canvas), {}};
+Drawn drawn_by(const Job& job, const std::filesystem::path& folder, double dpi, const CanvasSource& canvas) {
+  Drawn drawn{draw(job, folder, dpi, canvas), {}};
   const std::string name = canvas().gl_renderer();
   std::copy_n(name.begin(), std::min(name.size(), drawn.renderer.size() - 1), drawn.renderer.begin());
   return drawn;
@@ -136,14 +148,14 @@ std::vector<Drawn> draw_all(const std::vector<Job>& jobs, const ReportOptions& o
     std::vector<Drawn> all;
     for (const Job& job : jobs) {
       if (options.stopped()) throw dem::Interrupted{};
-      all.push_back(drawn_by(job, options.folder, canvas));
+      all.push_back(drawn_by(job, options.folder, options.dpi, canvas));
     }
     return all;
   }
   const int workers = std::min(options.workers, static_cast<int>(std::min(jobs.size(), most)));
   std::optional<render::Canvas> own;  // of each process: still empty at the fork
   const auto one = [&](std::size_t i) {
-    return drawn_by(jobs[i], options.folder, [&]() -> render::Canvas& {
+    return drawn_by(jobs[i], options.folder, options.dpi, [&]() -> render::Canvas& {
       if (!own) own.emplace();
       return *own;
     });
@@ -162,6 +174,7 @@ void clear(const std::filesystem::path& folder) {
 FigureContent content_of(const StudyResult& study, const Figure& figure, DrawnFigure& drawn) {
   try {
     FigureContent content = figure.make(study);
+    lay_out(content.panels);
     if (study.of_a_paper) {
       drawn.mirrors = figure.source;
       drawn.statement = content.statement;

@@ -51,10 +51,9 @@ Shared shared_by(std::span<const DrawnPanel> row) {
               std::ranges::all_of(row, [&](const auto& p) { return same_key(p.legend, first.legend); })};
 }
 
-// The counts alone, once the row says what the colours mean.
+// What differs from picture to picture, once the row says the rest: the entries with counts, by their names.
 std::vector<LegendEntry> counts_of(std::vector<LegendEntry> legend) {
   std::erase_if(legend, [](const LegendEntry& entry) { return entry.count.empty(); });
-  for (LegendEntry& entry : legend) entry.text.clear();
   return legend;
 }
 
@@ -184,14 +183,14 @@ PageData rows_data(const DrawnFigure& figure, const std::filesystem::path& folde
     for (const DrawnPanel& panel : members)
       list.push_back(panel_data(panel, fmt::format("Figure {}", figure.number), folder, shared));
     std::vector<LegendEntry> key = shared.legend ? members.front().legend : std::vector<LegendEntry>{};
-    for (LegendEntry& entry : key) entry.count.clear();
+    std::erase_if(key, [](const LegendEntry& entry) { return !entry.count.empty(); });
     PageData row;
     // Alone and half a page wide: its caption stands beside it.
     const bool alone = members.size() == 1 && per_row == 2 && members.front().table.head.empty();
     const bool whole = per_row == 1 && members.front().whole_width;
     row.set("per_row", alone ? "lone" : std::to_string(per_row) + (whole ? " whole" : ""));
     row.set("panels", list);
-    row.set("has_shared", shared.caption || shared.legend);
+    row.set("has_shared", shared.caption || !key.empty());
     row.set("has_shared_caption", shared.caption);
     row.set("letters", members.front().letter + "–" + members.back().letter);
     row.set("shared_caption", members.front().caption);

@@ -15,6 +15,7 @@ namespace {
 
 constexpr render::Colour opening_colour{0.90, 0.62, 0.0};  // apart in grey print: light and dark
 constexpr render::Colour sliding_colour{0.0, 0.20, 0.45};
+constexpr render::Colour moved_down{0.93, 0.70, 0.40}, moved_up{0.16, 0.38, 0.62};
 
 struct Cracks {
   std::span<const double> time, position, normal;
@@ -40,6 +41,7 @@ render::Scene scene_of(const dem::Record& r, const render::Point& direction) {
   scene.outline.low = {-radius, -radius, -radius};
   scene.outline.high = {high[0] + radius, high[1] + radius, high[2] + radius};
   scene.camera.direction = direction;
+  scene.axes = true;
   scene.width = 620;
   scene.height = 620;
   return scene;
@@ -62,12 +64,10 @@ render::Discs discs_of(const dem::Record& r, Keep keep, Colour colour) {
 
 constexpr render::Point oblique{-0.80, 0.50, -0.33}, along_y{0, 1, 0};
 
-std::vector<LegendEntry> time_legend(double from, double to) {
-  std::vector<LegendEntry> legend;
-  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-    legend.push_back({time_colour(share), number(1e6 * share * (to - from), 3) + " µs"});
-  }
-  return legend;
+render::ColourBar time_bar(double from, double to, const std::string& since) {
+  render::ColourBar bar{.title = "µs since " + since, .low = 0, .high = 1e6 * (to - from), .colours = {}};
+  for (int k = 0; k < 64; ++k) bar.colours.push_back(time_colour((k + 0.5) / 64));
+  return bar;
 }
 
 Panel by_mode(const dem::Record& r, const std::string& id, double until, const std::string& label) {
@@ -83,8 +83,8 @@ Panel by_mode(const dem::Record& r, const std::string& id, double until, const s
       r, [&](std::size_t i) { return c.time[i] <= until; },
       [&](std::size_t i) { return c.mode[i] == 0 ? opening_colour : sliding_colour; })};
   p.label = label;
-  p.legend = {{opening_colour, "opened: " + count(static_cast<double>(open))},
-              {sliding_colour, "slid: " + count(static_cast<double>(slid))}};
+  p.legend = {{opening_colour, "opened", count(static_cast<double>(open))},
+              {sliding_colour, "slid", count(static_cast<double>(slid))}};
   return {.id = id,
           .caption = "Broken bonds so far, by mode.",
           .alt = fmt::format("{}: {} bonds opened, {} slid.", label, open, slid),
@@ -93,7 +93,7 @@ Panel by_mode(const dem::Record& r, const std::string& id, double until, const s
 }
 
 Panel by_time(const dem::Record& r, const std::string& id, double from, double to, const std::string& label,
-              const render::Point& direction, const std::string& caption) {
+              const render::Point& direction, const std::string& since, const std::string& caption) {
   const Cracks c = cracks_of(r);
   Picture p;
   p.scene = scene_of(r, direction);
@@ -101,7 +101,7 @@ Panel by_time(const dem::Record& r, const std::string& id, double from, double t
       r, [&](std::size_t i) { return c.time[i] >= from && c.time[i] <= to; },
       [&](std::size_t i) { return time_colour((c.time[i] - from) / std::max(1e-12, to - from)); })};
   p.label = label;
-  p.legend = time_legend(from, to);
+  p.scene.bar = time_bar(from, to, since);
   return {.id = id,
           .caption = caption,
           .alt = fmt::format("{} bonds broke in {} µs.", p.scene.discs[0].centre.size(), number(1e6 * (to - from), 3)),
@@ -122,15 +122,18 @@ Panel halves(const dem::Record& r, const std::string& id, const std::string& lab
                               x[3 * i + 2] + enlarged * u[3 * i + 2]});
     spheres.radius.push_back(radius[i]);
     const double share = 0.5 + 0.5 * u[3 * i + 2] / std::max(apart, 1e-15);
-    spheres.colour.push_back({0.85 - 0.55 * share, 0.62, 0.35 + 0.45 * share});
+    spheres.colour.push_back({moved_down.red + share * (moved_up.red - moved_down.red),
+                              moved_down.green + share * (moved_up.green - moved_down.green),
+                              moved_down.blue + share * (moved_up.blue - moved_down.blue)});
   }
   Picture p;
   p.scene.spheres = {spheres};
   p.scene.camera.direction = {-0.92, 0.30, -0.12};
+  p.scene.axes = true;
   p.scene.width = 620;
   p.scene.height = 620;
   p.label = label;
-  p.legend = {{{0.85, 0.62, 0.35}, "moved down"}, {{0.30, 0.62, 0.80}, "moved up"}};
+  p.legend = {{moved_down, "moved down"}, {moved_up, "moved up"}};
   return {.id = id,
           .caption = "At the end, displacements enlarged " + number(enlarged, 2) + " times.",
           .alt = "The parts of the block have moved " + number(1e6 * apart, 3) +
@@ -200,7 +203,7 @@ FigureContent crack_maps(const StudyResult& study) {
     content.panels.push_back(by_mode(*pressed, "compression_opening", pressed->value_or_nan(quantity::a1_time) + 3e-6,
                                      "Compression, after A₁"));
     content.panels.push_back(by_mode(*pressed, "compression_end", 1e9, "Compression, at the end"));
-    content.panels.push_back(by_time(*pressed, "compression_time", c1, c2, "Compression, C₁ to C₂", oblique,
+    content.panels.push_back(by_time(*pressed, "compression_time", c1, c2, "Compression, C₁ to C₂", oblique, "C₁",
                                      "Bonds that broke at the failure, by time since C₁."));
     said.push_back(fmt::format("in compression {} bonds opened and {} slid",
                                count(pressed->value(quantity::cracks_opening)),
@@ -213,9 +216,9 @@ FigureContent crack_maps(const StudyResult& study) {
     }
     const std::string planes = r->text("planes");
     const double d1 = r->value_or_nan(quantity::failure_time), d2 = d1 + r->value_or_nan(quantity::crack_duration);
-    content.panels.push_back(by_time(*r, "tension_time_" + planes, d1, d2, "Tension, planes: " + planes, oblique,
+    content.panels.push_back(by_time(*r, "tension_time_" + planes, d1, d2, "Tension, planes: " + planes, oblique, "D₁",
                                      "Bonds that opened, by time since D₁."));
-    content.panels.push_back(by_time(*r, "tension_side_" + planes, d1, d2, "Tension, planes: " + planes, along_y,
+    content.panels.push_back(by_time(*r, "tension_side_" + planes, d1, d2, "Tension, planes: " + planes, along_y, "D₁",
                                      "Bonds that opened, seen along y."));
     content.panels.push_back(halves(*r, "tension_halves_" + planes, "Tension, planes: " + planes));
     said.push_back(fmt::format("in tension with {} planes {} bonds opened and {} slid", planes,
@@ -249,16 +252,24 @@ FigureContent crack_front(const StudyResult& study) {
     f.points.marker = render::Marker::circle;
     f.reach = styled(f.reach, "farthest so far", 5);
     chart.series = {f.points, f.reach};
+    const double speed = study.published_value("crack_speed_" + published_suffix(planes));  // m/s
+    const double last = f.points.x.empty() ? 0 : std::ranges::max(f.points.x);
+    if (std::isfinite(speed) && last > 0) {
+      render::Series line = line_of(
+          0, last, [&](double t) { return 1e-3 * speed * t; }, 1);
+      line.label = fmt::format("published {} m/s", number(speed, 4));
+      line.colour = published_colour;
+      line.line = render::Line::dash;
+      chart.series.push_back(line);
+    }
     chart.legend = render::Chart::Legend::bottom_right;
-    chart.width = 640;
-    chart.height = 380;
+    chart.height = 300;
     content.panels.push_back(
         {.id = planes,
          .caption = fmt::format(
              "Planes: {}. Distance across the load between each opened bond and the nearest of the first.", planes),
          .alt = fmt::format("The farthest opening runs at {}.", speed_text(f.speed)),
-         .content = chart,
-         .per_row = 1});
+         .content = chart});
     said.push_back(fmt::format("{} planes: {} by the crack front, {} m/s by the width over the time from D₁ to D₂",
                                planes, speed_text(f.speed), number(r->value_or_nan(quantity::crack_speed), 3)));
   }

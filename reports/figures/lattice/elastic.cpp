@@ -25,9 +25,8 @@ render::Chart against_strain(const std::vector<const dem::Record*>& records, con
       low = std::min(low, y);
       high = std::max(high, y);
     }
-    s = styled(s, count(records[i]->value(quantity::particles)), i, i < 5 ? render::Line::solid : render::Line::dash,
-               1.4);
-    s.marker = i % 2 ? render::Marker::square : render::Marker::circle;
+    s = styled(s, count(records[i]->value(quantity::particles)), i, render::line_style(i), 1.4);
+    s.marker = render::marker_style(i);
     chart.series.push_back(s);
   }
   const double room = 0.25 * (high - low) + 0.002 * published;
@@ -36,8 +35,7 @@ render::Chart against_strain(const std::vector<const dem::Record*>& records, con
   chart.marks.push_back(
       {.kind = render::Mark::Kind::horizontal, .x = 0, .y = published, .label = "quartzite", .colour = {0, 0, 0}});
   chart.legend = render::Chart::Legend::outside_right;
-  chart.width = 640;
-  chart.height = 400;
+  chart.height = 340;
   return chart;
 }
 

@@ -11,8 +11,6 @@
 namespace reports::lattice {
 namespace {
 
-constexpr int width = 720, height = 440;
-
 // Time of the sample of largest stress.
 double peak_time(const dem::Table& h) {
   const auto stress = h.real("axial_stress");
@@ -78,31 +76,30 @@ TensionMarks tension_marks(const dem::Record& r) {
 std::vector<render::Series> energies(const dem::Table& h, double from, double to, double zero, double factor) {
   return {styled(window_sum(h, elastic_columns(), from, to, zero, factor), "elastic", 5),
           styled(window(h, "kinetic", from, to, zero, factor), "kinetic", 1, render::Line::dash_dot),
-          styled(window_sum(h, heat_columns(), from, to, zero, factor), "heat", 2),
+          styled(window_sum(h, heat_columns(), from, to, zero, factor), "heat", 2, render::Line::dot),
           styled(window(h, "work", from, to, zero, factor), "work", 0, render::Line::dash)};
 }
 
 render::Chart heats(const dem::Record& r, double from, double to, double zero,
-                    const std::vector<std::pair<double, std::string>>& marks) {
+                    const std::vector<std::pair<double, std::string>>& marks, double published_end) {
   const dem::Table& h = r.table("history");
   const Unit unit = unit_of(h, heat_columns());
   render::Chart chart;
   chart.x.title = "Time since " + marks.front().second + " (µs)";
   chart.left.title = "Heat (" + unit.name + ")";
   chart.series = {
-      styled(window_sum(h, heat_columns(), from, to, zero, unit.factor), "total", 0, render::Line::dash),
-      styled(window(h, "viscous_heat", from, to, zero, unit.factor), "viscous", 5),
+      styled(window_sum(h, heat_columns(), from, to, zero, unit.factor), "total", 4, render::Line::solid, 2.4),
+      styled(window(h, "viscous_heat", from, to, zero, unit.factor), "viscous", 5, render::Line::dash),
       styled(window_sum(h, {"breaking_heat_normal", "breaking_heat_shear"}, from, to, zero, unit.factor), "breaking",
-             6),
+             0),
       styled(window(h, "breaking_heat_normal", from, to, zero, unit.factor), "breaking, normal", 3,
              render::Line::dash_dot),
-      styled(window(h, "breaking_heat_shear", from, to, zero, unit.factor), "breaking, shear", 1,
-             render::Line::dash_dot),
-      styled(window(h, "frictional_heat", from, to, zero, unit.factor), "frictional", 2, render::Line::dot)};
+      styled(window(h, "breaking_heat_shear", from, to, zero, unit.factor), "breaking, shear", 1, render::Line::dot),
+      styled(window(h, "frictional_heat", from, to, zero, unit.factor), "frictional", 2, render::Line::dash_dot)};
   for (const auto& [time, label] : marks) chart.marks.push_back(upright(1e6 * (time - zero), label));
-  chart.legend = render::Chart::Legend::outside_right;
-  chart.width = width;
-  chart.height = 380;
+  add_published(chart, render::Mark::Kind::vertical, published_end, "published " + marks.back().second);
+  chart.legend = render::Chart::Legend::below;
+  chart.height = 360;
   return chart;
 }
 
@@ -138,7 +135,7 @@ FigureContent stress_strain(const StudyResult& study) {
   chart.marks.push_back({.kind = render::Mark::Kind::horizontal,
                          .x = 0,
                          .y = r->value(quantity::opening_stress_theory),
-                         .label = "C_open (Eq. 8)",
+                         .label = "C_{open} (Eq. 8)",
                          .colour = {0.4, 0.4, 0.4}});
   render::Chart inset;
   inset.x.title = "Strain (10⁻³)";
@@ -156,8 +153,7 @@ FigureContent stress_strain(const StudyResult& study) {
   inset.legend = render::Chart::Legend::none;
   chart.insets.push_back({{inset}, {0.60, 0.13, 0.36, 0.28}});
   chart.legend = render::Chart::Legend::none;
-  chart.width = width;
-  chart.height = 480;
+  chart.height = 380;
   content.panels.push_back(
       {.id = "",
        .caption =
@@ -210,8 +206,7 @@ FigureContent energy_compression(const StudyResult& study) {
   inset.legend = render::Chart::Legend::none;
   chart.insets.push_back({{inset}, {0.14, 0.40, 0.40, 0.40}});
   chart.legend = render::Chart::Legend::below;
-  chart.width = width;
-  chart.height = 500;
+  chart.height = 400;
   content.panels.push_back(
       {.id = "",
        .caption = "Compression: energy against time; the inset shows the kinetic energy at failure.",
@@ -257,11 +252,16 @@ FigureContent energy_tension(const StudyResult& study) {
     const double after = std::max(2.5 * (m.b2 - m.d1), 4e-6);
     inset.series = energies(h, m.d1 - 0.3 * after, m.d1 + after, m.d1, unit.factor);
     inset.marks = {upright(0, "B₁"), upright(1e6 * (m.b2 - m.d1), "B₂")};
+    const std::string theirs = published_suffix(r->text("planes"));
+    add_published(chart, render::Mark::Kind::vertical, 1e4 * study.published_value("failure_time_" + theirs),
+                  "published B₁");  // in 10⁻² s
+    const double share = study.published_value("kinetic_share_" + theirs);
+    add_published(chart, render::Mark::Kind::horizontal, 0.01 * share * unit.factor * value_at(h, {"work"}, m.d1),
+                  fmt::format("published largest kinetic energy, {} %", number(share, 3)));
     inset.legend = render::Chart::Legend::none;
-    chart.insets.push_back({{inset}, {0.12, 0.42, 0.44, 0.46}});
+    chart.insets.push_back({{inset}, {0.10, 0.44, 0.40, 0.44}});
     chart.legend = render::Chart::Legend::below;
-    chart.width = width;
-    chart.height = 500;
+    chart.height = 400;
     const std::string planes = r->text("planes");
     content.panels.push_back(
         {.id = planes,
@@ -297,7 +297,8 @@ FigureContent heat_compression(const StudyResult& study) {
        .alt = fmt::format("From C1 to C2 {} µs pass; {} % of the breaking heat in between is of normal springs.",
                           number(1e6 * (m.c2 - m.c1), 3),
                           number(100 * r->value_or_nan(quantity::normal_share_of_sliding_heat), 2)),
-       .content = heats(*r, m.c1 - 0.3 * span, m.c2 + 1.5 * span, m.c1, {{m.c1, "C₁"}, {m.c2, "C₂"}}),
+       .content = heats(*r, m.c1 - 0.3 * span, m.c2 + 1.5 * span, m.c1, {{m.c1, "C₁"}, {m.c2, "C₂"}},
+                        1e2 * study.published_value("failure_duration")),  // in 10⁻⁴ s
        .per_row = 1});
   content.finding = fmt::format(
       "C₂ comes {} µs after C₁. Normal springs contribute {} % of the breaking heat in between. {} % of all frictional "
@@ -328,8 +329,8 @@ FigureContent heat_tension(const StudyResult& study) {
         {.id = planes,
          .caption = fmt::format("Tension, planes: {}. Heat at failure.", planes),
          .alt = fmt::format("Breaking heat rises for {} µs.", number(1e6 * (m.d2 - m.d1), 3)),
-         .content = heats(*r, m.d1 - 0.3 * span, m.d2 + 2.5 * span, m.d1, {{m.d1, "D₁"}, {m.d2, "D₂"}}),
-         .per_row = 1});
+         .content = heats(*r, m.d1 - 0.3 * span, m.d2 + 2.5 * span, m.d1, {{m.d1, "D₁"}, {m.d2, "D₂"}},
+                          study.published_value("crack_duration_" + published_suffix(planes)))});
     std::string friction = r->has(quantity::friction_after_last_opening)
                                ? fmt::format(
                                      "frictional heat begins {} µs {} the last opening and ends at {} % of the work, "
@@ -371,7 +372,7 @@ FigureContent ledger(const StudyResult& study) {
         s.y.push_back(ratio);
       }
       if (s.x.empty()) continue;
-      chart.series.push_back(styled(s, r->case_id, colour, colour % 2 ? render::Line::dash : render::Line::solid, 1.2));
+      chart.series.push_back(styled(s, r->case_id, colour, render::line_style(colour), 1.2));
       ++colour;
     }
   }
@@ -381,8 +382,7 @@ FigureContent ledger(const StudyResult& study) {
   chart.left.low = 1e-12;
   chart.left.high = 1e-2;
   chart.legend = render::Chart::Legend::below;
-  chart.width = width;
-  chart.height = 420;
+  chart.height = 340;
   content.panels.push_back(
       {.id = "",
        .caption = "Residual of the ledger over the work, taken as at least a thousandth of its largest value.",

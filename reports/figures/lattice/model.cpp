@@ -48,6 +48,7 @@ Picture block_picture(const dem::Record& record) {
   Picture picture;
   picture.scene.spheres = {spheres};
   picture.scene.camera.direction = {-0.75, 0.55, -0.30};
+  picture.scene.axes = true;
   picture.scene.width = 700;
   picture.scene.height = 700;
   picture.label = count(record.value(quantity::particles)) + " elements";
@@ -58,16 +59,33 @@ Picture block_picture(const dem::Record& record) {
 }
 
 constexpr std::string_view svg_head =
-    R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {} {}" width="{}" height="{}" font-family="DejaVu Sans" font-size="15">)";
+    R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="{0} 0 {1} {2}" width="{1}" height="{2}" font-family="DejaVu Sans" font-size="{3:.4g}">)";
 
-std::string head(int width, int height) { return fmt::format(fmt::runtime(svg_head), width, height, width, height); }
-
-std::string text(double x, double y, std::string_view words, std::string_view anchor = "middle") {
-  return fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="{}">{}</text>)", x, y, anchor, words);
+// The middle of the drawing lies at `middle`; it is shown in a column or over the page, with text of 12.5 px there.
+std::string head(int width, int height, int middle, int shown) {
+  return fmt::format(fmt::runtime(svg_head), middle - width / 2, width, height, 12.5 * width / shown);
 }
-// A letter with a subscript that has no Unicode form of its own.
-std::string sub(std::string_view letter, std::string_view below) {
-  return fmt::format(R"({}<tspan dy="4" font-size="11">{}</tspan><tspan dy="-4"> </tspan>)", letter, below);
+
+// Words with _{...} for indices.
+std::string text(double x, double y, std::string_view words, std::string_view anchor = "middle") {
+  std::string body;
+  bool low = false;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words.substr(i, 2) == "_{") {
+      body += R"(<tspan dy="0.25em" font-size="72%">)";
+      low = true;
+      ++i;
+    } else if (low && words[i] == '}') {
+      body += R"(</tspan><tspan dy="-0.18em">)";
+      const std::size_t next = std::min(words.find("_{", i), words.size());
+      body += std::string(words.substr(i + 1, next - i - 1)) + "</tspan>";
+      i = next - 1;
+      low = false;
+    } else {
+      body += words[i];
+    }
+  }
+  return fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="{}">{}</text>)", x, y, anchor, body);
 }
 std::string circle(double x, double y, double r, std::string_view fill, bool dashed = false) {
   return fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="{:.1f}" fill="{}" stroke="#333" stroke-width="1.5"{}/>)", x,
@@ -100,19 +118,19 @@ std::string spring(double x0, double y0, double x1, double y1, std::string_view 
 }
 
 std::string springs_drawing() {
-  std::string s = head(600, 250);
+  std::string s = head(600, 250, 300, render::column_width);
   s += circle(80, 120, 55, "#c9d5de") + circle(230, 120, 55, "#c9d5de") + spring(80, 120, 230, 120, "#0072b2");
-  s += text(155, 45, "Fₙ = Kₙ Xₙ") + text(155, 100, "Kₙ") + text(155, 215, "breaks when Xₙ &gt; " + sub("X", "b"));
+  s += text(155, 45, "F_{n} = K_{n} X_{n}") + text(155, 98, "K_{n}") + text(155, 215, "breaks when X_{n} &gt; X_{b}");
   s += circle(365, 120, 55, "#c9d5de") + circle(475, 120, 55, "#c9d5de") + spring(420, 65, 420, 175, "#d55e00");
-  s += text(420, 45, "Fₛ = Kₛ Xₛ") + text(447, 124, "Kₛ") + arrow(365, 190, 365, 160, "#333") +
+  s += text(420, 45, "F_{s} = K_{s} X_{s}") + text(450, 124, "K_{s}") + arrow(365, 190, 365, 160, "#333") +
        arrow(475, 50, 475, 80, "#333");
-  s += text(430, 215, "breaks when |Fₛ| &gt; Fₛ₀ − μₚ Fₙ");
+  s += text(430, 215, "when |F_{s}| &gt; F_{s0} − μ_{p} F_{n}");
   return s + "</svg>";
 }
 
 std::string unit_drawing() {
   // The unit seen from the side: element 1 on the three at the plane; bond 1 inclined, bond 2 along the plane.
-  std::string s = head(640, 316);
+  std::string s = head(800, 316, 320, render::page_width);
   for (const double x0 : {160.0, 480.0}) {
     const bool tension = x0 < 300;
     s += line(x0 - 130, 238, x0 + 130, 238, "#555", 3);
@@ -120,19 +138,19 @@ std::string unit_drawing() {
     s += line(x0, 108, x0 + 52, 190, "#0072b2", 3) + line(x0 - 52, 190, x0 + 52, 190, "#d55e00", 3);
     s += text(x0, 103, "1") + text(x0 - 60, 186, "2") + text(x0 + 62, 186, "3, 4") +
          text(x0 + 60, 136, "bond 1", "start") + text(x0, 258, "bond 2");
-    s += tension ? arrow(x0, 60, x0, 18, "#333") + text(x0 + 12, 30, sub("F", "z"), "start")
-                 : arrow(x0, 12, x0, 56, "#333") + text(x0 + 12, 30, sub("F", "z"), "start");
+    s += tension ? arrow(x0, 60, x0, 18, "#333") + text(x0 + 12, 30, "F_{z}", "start")
+                 : arrow(x0, 12, x0, 56, "#333") + text(x0 + 12, 30, "F_{z}", "start");
     const double in = tension ? 1 : -1;
     s += arrow(x0 - 112 - 14 * in, 190, x0 - 112 + 14 * in, 190, "#333") +
          arrow(x0 + 112 + 14 * in, 190, x0 + 112 - 14 * in, 190, "#333");
     s += text(x0, 284, tension ? "tension: bond 1 opens" : "compression: bond 2 opens,");
-    s += text(x0, 304, tension ? "at Tᵤ (Eqs. 2, 7)" : "then bond 1 slides (Eqs. 8–14)");
+    s += text(x0, 304, tension ? "at T_{u} (Eqs. 2, 7)" : "then bond 1 slides (Eqs. 8–14)");
   }
   return s + "</svg>";
 }
 
 std::string sliding_drawing() {
-  std::string s = head(640, 260);
+  std::string s = head(800, 260, 320, render::page_width);
   s += line(20, 190, 290, 190, "#555", 3) + circle(110, 140, 50, "none", true) + circle(150, 140, 50, "#c9d5de");
   s += circle(110, 140, 3, "#333") + circle(150, 140, 3, "#333") + circle(110, 190, 4, "#d55e00") +
        spring(110, 190, 150, 140, "#d55e00");
@@ -142,10 +160,10 @@ std::string sliding_drawing() {
   s += line(340, 190, 620, 190, "#555", 3) + circle(410, 140, 50, "none", true) + circle(520, 140, 50, "#c9d5de");
   s += circle(410, 140, 3, "#333") + circle(520, 140, 3, "#333") + spring(385, 190, 410, 140, "#d55e00") +
        spring(480, 190, 520, 140, "#d55e00");
-  s += text(410, 128, "O₁") + text(520, 128, "O₂") + text(385, 212, "P₁") + text(480, 212, "P₂") +
+  s += text(410, 128, "O_{1}") + text(520, 128, "O_{2}") + text(385, 212, "P_{1}") + text(480, 212, "P_{2}") +
        arrow(392, 200, 473, 200, "#d55e00") + arrow(420, 70, 510, 70, "#333");
   s += text(465, 62, "dS′") + text(432, 228, "dS");
-  s += text(480, 250, "(b) dS = dS′ − (Fₛ₂ − Fₛ₁)/Kₛ");
+  s += text(480, 250, "(b) dS = dS′ − (F_{s2} − F_{s1})/K_{s}");
   return s + "</svg>";
 }
 
@@ -188,7 +206,8 @@ FigureContent unit(const StudyResult&) {
        .caption = "The tetrahedral unit seen from the side, under tension and under compression.",
        .alt = "One sphere on three that stand on a plane, pulled on the left, pressed on the right.",
        .content = unit_drawing(),
-       .per_row = 1});
+       .per_row = 1,
+       .whole_width = true});
   return content;
 }
 
@@ -202,7 +221,8 @@ FigureContent sliding_distance(const StudyResult&) {
        .caption = "(a) A contact locked by static friction. (b) A contact that slides.",
        .alt = "A sphere on a surface: held at point P while its centre moves; then sliding from P1 to P2.",
        .content = sliding_drawing(),
-       .per_row = 1});
+       .per_row = 1,
+       .whole_width = true});
   return content;
 }
 

@@ -38,7 +38,7 @@ render::Chart against_size(const StudyResult& study, const Test& test) {
   render::Chart chart;
   chart.x.title = "Number of elements";
   chart.x.logarithmic = true;
-  chart.x.ticks = {{4, "4"}, {10, "10"}, {100, "100"}, {1000, "1 000"}, {10000, "10 000"}, {100000, "100 000"}};
+  chart.x.ticks = {{4, "4"}, {10, "10"}, {100, "100"}, {1000, "1000"}, {10000, "10 000"}, {100000, "100 000"}};
   chart.x.low = 3;
   chart.x.high = 60000;
   chart.left.title = std::string(test.title);
@@ -71,6 +71,8 @@ render::Chart against_size(const StudyResult& study, const Test& test) {
     other.marker = colour == 2 ? render::Marker::square : render::Marker::triangle;
     chart.series.push_back(other);
   }
+  add_published(chart, {{4, rock * (1 + study.published_value(test.published_single) / 100)}},
+                "published, single unit");
   for (const render::Series& s : chart.series) {
     for (const double y : s.y) {
       low = std::min(low, y);
@@ -86,12 +88,11 @@ render::Chart against_size(const StudyResult& study, const Test& test) {
                            .x = 0,
                            .y = mean,
                            .label = "published mean of blocks",
-                           .colour = {0.5, 0.5, 0.5},
+                           .colour = published_colour,
                            .line = render::Line::dash_dot});
   }
   chart.legend = render::Chart::Legend::below;
-  chart.width = 640;
-  chart.height = 420;
+  chart.height = 340;
   return chart;
 }
 
@@ -169,8 +170,7 @@ FigureContent block_strengths(const StudyResult& study) {
                                                  count(records.front()->value(quantity::particles)),
                                                  number(records.back()->value_or_nan(test.result), 4),
                                                  count(records.back()->value(quantity::particles))),
-                              .content = against_size(study, test),
-                              .per_row = 1});
+                              .content = against_size(study, test)});
     if (records.front()->value(quantity::particles) == 4) {
       content.finding += fmt::format("Single unit in {}: {} %{}. ", test.name,
                                      with_sign(number(records.front()->value_or_nan(test.error), 3)),

@@ -33,11 +33,11 @@ Panel map_panel(const StudyResult& study, const dem::Record& r, double strain, i
   const auto n = crack_counts(r, strain);
   const std::string label = label_of(r, study);
   return {.id = r.case_id + "_" + part(strain),
-          .caption = fmt::format("{} at {}: {} broken springs inside grains (orange), {} at boundaries (dark blue).",
+          .caption = fmt::format("{} at {}: {} broken springs inside grains, {} at boundaries.",
                                  label == "this run" ? "Fractures" : "Fractures, " + label + ",", strain_words(strain),
                                  count(n[0]), count(n[1])),
           .alt = fmt::format("Map of {} broken springs over the outlines of grains.", count(n[0] + n[1])),
-          .content = fracture_map(r, strain, per_row == 1 ? 880 : 430),
+          .content = fracture_map(r, strain, per_row == 1 ? render::page_width : render::column_width),
           .per_row = per_row,
           .whole_width = per_row == 1};
 }
@@ -48,10 +48,10 @@ std::string rose(const std::vector<double>& angles, double reference, std::strin
   std::array<int, bins> n{};
   for (const double a : angles) ++n[static_cast<std::size_t>(a / std::numbers::pi * bins) % bins];
   const int most = std::max(1, *std::max_element(n.begin(), n.end()));
-  const double c = 190, r = 150;
+  const double c = 200, r = 160;
   std::string body;
   for (const double share : {0.5, 1.0}) {
-    body += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"none\" stroke=\"#bbb\"/>", c, c, share * r);
+    body += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"none\" stroke=\"#8a8a8a\"/>", c, c, share * r);
   }
   for (int turn = 0; turn < 2; ++turn) {
     for (int b = 0; b < bins; ++b) {
@@ -66,14 +66,14 @@ std::string rose(const std::vector<double>& angles, double reference, std::strin
   }
   const double ux = std::cos(reference), uy = std::sin(reference);
   body += fmt::format(
-      "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#d55e00\" stroke-width=\"2\" "
+      "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#bd4300\" stroke-width=\"2\" "
       "stroke-dasharray=\"7 4\"/>",
-      c - 172 * ux, c + 172 * uy, c + 172 * ux, c - 172 * uy);
-  body += fmt::format("<text x=\"{}\" y=\"402\" text-anchor=\"middle\" font-size=\"14\" fill=\"#b04a00\">{}</text>", c,
-                      reference_words);
+      c - 183 * ux, c + 183 * uy, c + 183 * ux, c - 183 * uy);
+  body += fmt::format("<text x=\"{}\" y=\"408\" text-anchor=\"middle\" font-size=\"12.5\" fill=\"#a04000\">{}</text>",
+                      c, reference_words);
   body +=
-      fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"12\" fill=\"#555\">circle: {}</text>", c + 116, c - 120, most);
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 380 412\" width=\"380\" height=\"412\" "
+      fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"12\" fill=\"#444\">circle: {}</text>", c + 116, c - 136, most);
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 400 420\" width=\"400\" height=\"420\" "
          "font-family=\"DejaVu Sans\">" +
          body + "</svg>";
 }
@@ -200,8 +200,7 @@ FigureContent radial_fractures(const StudyResult& study) {
   chart.marks.push_back(
       {.kind = render::Mark::Kind::horizontal, .x = 0, .y = 100.0 / 9, .label = "chance", .colour = {0.3, 0.3, 0.3}});
   chart.legend = render::Chart::Legend::none;
-  chart.width = 620;
-  chart.height = 380;
+  chart.height = 320;
   const double share = r->value_or_nan(quantity::radial_share);
   content.panels.push_back(
       {.id = "",
@@ -228,32 +227,27 @@ FigureContent spacing(const StudyResult& study) {
       "The spacing of fractures through a stiff layer falls with strain until it saturates at about the thickness of "
       "the layer (Bai et al. 2000).";
   const dem::Table& h = r->table("history");
-  render::Chart chart;
-  chart.x.title = "Strain (%)";
-  chart.left.title = "Mean spacing over layer thickness";
-  chart.right.title = "Fractures through the layer";
-  chart.left.low = 0;
-  chart.right.low = 0;
-  render::Series gap = curve(h, {"strain", "spacing_over_thickness", 100, 1}),
-                 number_of = curve(h, {"strain", "crossing_fractures", 100, 1});
-  gap.label = "spacing";
-  gap.colour = render::palette(5);
-  gap.marker = render::Marker::circle;
-  number_of.label = "number";
-  number_of.colour = render::palette(6);
-  number_of.line = render::Line::dash;
-  number_of.side = render::Side::right;
-  chart.series = {gap, number_of};
-  chart.legend = render::Chart::Legend::below;
-  chart.width = 640;
-  chart.height = 420;
   const double last = r->value_or_nan(quantity::crossing_fractures);
-  content.panels.push_back(
-      {.id = "",
-       .caption = "Fractures that reach across four fifths of the layer's rows or more, and their mean spacing.",
-       .alt = fmt::format("At the end {} fractures cross the layer.", count(last)),
-       .content = chart,
-       .per_row = 1});
+  const auto panel = [&](const char* id, const char* column, const char* title, const std::string& caption) {
+    render::Chart chart;
+    chart.x.title = "Strain (%)";
+    chart.left.title = title;
+    chart.left.low = 0;
+    render::Series series = curve(h, {"strain", column, 100, 1});
+    series.colour = render::palette(0);
+    series.marker = render::Marker::circle;
+    chart.series = {series};
+    chart.legend = render::Chart::Legend::none;
+    chart.height = 300;
+    content.panels.push_back({.id = id,
+                              .caption = caption,
+                              .alt = fmt::format("At the end {} fractures cross the layer.", count(last)),
+                              .content = chart,
+                              .per_row = 2});
+  };
+  panel("number", "crossing_fractures", "Fractures through the layer",
+        "Fractures that reach across four fifths of the layer's rows or more.");
+  panel("spacing", "spacing_over_thickness", "Mean spacing over layer thickness", "Their mean spacing.");
   content.finding = fmt::format("{} fractures cross the layer at a strain of {}", count(last),
                                 strain_words(r->value(quantity::final_strain)));
   if (r->has(quantity::spacing_over_thickness)) {

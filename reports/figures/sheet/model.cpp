@@ -77,7 +77,7 @@ FigureContent neighbours(const StudyResult& study) {
   const Layout l = layout_of(*r);
   const int c = l.columns / 2 - 2, row = l.rows / 2 / 2 * 2 - 2;
   const std::size_t middle = static_cast<std::size_t>((row + 2) * l.columns + c + 2);
-  const Drawing d = draw_window(*r, {c, c + 5, row, row + 5}, 420, false, [&](std::size_t i) {
+  Drawing d = draw_window(*r, {c, c + 5, row, row + 5}, render::column_width, false, [&](std::size_t i) {
     const auto p = particles_of(*r).place;
     const double distance = std::hypot(p[2 * i] - p[2 * middle], p[2 * i + 1] - p[2 * middle + 1]);
     return std::string(i == middle ? "#e69f00" : distance < 2.2 * l.radius ? "#f3d9a4" : std::string(particle_fill));
@@ -85,7 +85,9 @@ FigureContent neighbours(const StudyResult& study) {
   content.panels.push_back({.id = "",
                             .caption = "Part of the model: a particle (dark), its six neighbours, and the springs.",
                             .alt = "A patch of 25 discs in rows; one is joined to six neighbours by springs.",
-                            .content = d.finish(),
+                            .content = d.finish_with_key({{"#e69f00", "a particle", false},
+                                                          {"#f3d9a4", "its six neighbours", false},
+                                                          {std::string(spring_colour), "springs", true}}),
                             .per_row = 2});
   content.finding = fmt::format("This sheet has {} particles in {} rows of {}, joined by {} springs.",
                                 count(r->value(quantity::particles)), count(l.rows), count(l.columns),
@@ -103,12 +105,13 @@ FigureContent box(const StudyResult& study) {
   const Layout l = layout_of(*r);
   const Particles p = particles_of(*r);
   const int n = std::min(12, l.columns), m = std::min(12, l.rows);
-  const Drawing corner = draw_window(
-      *r, {0, n, 0, m}, 460, false, [&](std::size_t i) { return std::string(p.fixed[i] ? wall_fill : particle_fill); });
+  Drawing corner = draw_window(*r, {0, n, 0, m}, render::column_width, false,
+                               [&](std::size_t i) { return std::string(p.fixed[i] ? wall_fill : particle_fill); });
   content.panels.push_back({.id = "corner",
                             .caption = "The lower left corner: wall particles (brown) and the sheet inside.",
                             .alt = "Discs along the left and lower edge are brown, all others pale.",
-                            .content = corner.finish(),
+                            .content = corner.finish_with_key({{std::string(wall_fill), "wall particles", false},
+                                                               {std::string(particle_fill), "the sheet", false}}),
                             .per_row = 2});
   Picture whole;
   render::Spheres spheres;
@@ -132,6 +135,7 @@ FigureContent box(const StudyResult& study) {
   whole.label = "All particles, by grain";
   whole.scale_bar = false;
   whole.legend = {{{0.61, 0.42, 0.24}, "wall particles"}};
+  whole.scene.axes = true;
   content.panels.push_back({.id = "whole",
                             .caption = "The deformation box: particles coloured by grain, walls brown.",
                             .alt = fmt::format("A square of {} discs in {} grains within a brown frame.",
@@ -183,10 +187,10 @@ FigureContent flow(const StudyResult& study) {
   arrow(170, 407, 110, 407, false);
   arrow(110, 407, 110, 127, false);
   arrow(110, 127, 169, 127);
-  body += "<text x=\"505\" y=\"326\" text-anchor=\"middle\" font-size=\"13\">yes</text>";
-  body += "<text x=\"316\" y=\"362\" font-size=\"13\">no</text>";
+  body += "<text x=\"505\" y=\"326\" text-anchor=\"middle\" font-size=\"12\">yes</text>";
+  body += "<text x=\"316\" y=\"362\" font-size=\"12\">no</text>";
   body +=
-      "<text x=\"98\" y=\"270\" text-anchor=\"middle\" font-size=\"13\" transform=\"rotate(-90 98 270)\">next "
+      "<text x=\"98\" y=\"270\" text-anchor=\"middle\" font-size=\"12\" transform=\"rotate(-90 98 270)\">next "
       "step</text>";
   content.panels.push_back(
       {.id = "",
@@ -194,10 +198,11 @@ FigureContent flow(const StudyResult& study) {
        .alt =
            "From the grain map to a load step, relaxation, a test of the springs, breaking of one spring and back to "
            "relaxation until none is over its strength; then the next step.",
-       .content = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 700 445\" width=\"700\" height=\"445\" "
-                  "font-family=\"DejaVu Sans\" font-size=\"14\">" +
+       .content = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-50 0 800 445\" width=\"800\" height=\"445\" "
+                  "font-family=\"DejaVu Sans\" font-size=\"12.5\">" +
                   body + "</svg>",
-       .per_row = 1});
+       .per_row = 1,
+       .whole_width = true});
   if (r) {
     content.finding =
         fmt::format("This run: {} load steps, {} relaxations, {} broken springs.",
@@ -226,13 +231,13 @@ FigureContent elle_layer(const StudyResult& study) {
   const int n = std::min(22, l.columns - 2), m = std::min(20, l.rows - 2);
   const int c = std::clamp(static_cast<int>(cx * l.columns) - n / 2, 0, l.columns - n);
   const int row = std::clamp(static_cast<int>(cy / l.height * l.rows) - m / 2, 0, l.rows - m) / 2 * 2;
-  const Drawing d = draw_window(*r, {c, c + n, row, row + m}, 560, true,
-                                [&](std::size_t i) { return grain_fill(static_cast<std::size_t>(p.grain[i])); });
+  Drawing d = draw_window(*r, {c, c + n, row, row + m}, render::column_width, true,
+                          [&](std::size_t i) { return grain_fill(static_cast<std::size_t>(p.grain[i])); });
   content.panels.push_back({.id = "",
                             .caption = "Outlines of grains (nodes and segments) over the particles that they hold.",
                             .alt = "Polygon edges with nodes cross a patch of discs that are coloured by grain.",
-                            .content = d.finish(),
-                            .per_row = 1});
+                            .content = d.finish_with_key({{"#c03020", "outlines of grains, with their nodes", true}}),
+                            .per_row = 2});
   content.finding = fmt::format("{} grains hold {} particles.", count(r->value(quantity::grains)),
                                 count(r->value(quantity::particles)));
   return content;

@@ -103,6 +103,27 @@ std::string Drawing::finish(double extra_below) const {
          body_ + "</svg>";
 }
 
+std::string Drawing::finish_with_key(const std::vector<KeyItem>& key) {
+  constexpr double size = 12, row = 20, sample = 20;
+  double x = 2, y = height_ + 18;
+  for (const KeyItem& item : key) {
+    const double wide = sample + 6 + 0.58 * size * static_cast<double>(item.text.size()) + 18;
+    if (x > 2 && x + wide > width_ + 18) x = 2, y += row;
+    if (item.line)
+      body_ += fmt::format(
+          "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" stroke-width=\"2.5\"/>", x,
+          y - 4, x + sample, y - 4, item.colour);
+    else
+      body_ +=
+          fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"10\" fill=\"{}\" stroke=\"#444\"/>",
+                      x + 2, y - 9, sample - 4, item.colour);
+    body_ +=
+        fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\">{}</text>", x + sample + 6, y, size, item.text);
+    x += wide;
+  }
+  return finish(y - height_ + 6);
+}
+
 std::string grain_fill(std::size_t grain) {
   static constexpr std::array<std::string_view, 6> fills{"#dfe6ee", "#efe6d8", "#e3eee0",
                                                          "#eee0e6", "#e6e3f0", "#f1eede"};
@@ -167,7 +188,13 @@ std::string fracture_map(const dem::Record& record, double strain, double width)
   }
   d.raw(fmt::format("<rect x=\"0.5\" y=\"0.5\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#555\"/>",
                     width - 1, (high - low) * d.scale() - 1));
-  return d.finish();
+  const auto n = crack_counts(record, strain);
+  std::vector<KeyItem> key{{std::string(intra_colour), fmt::format("inside grains: {}", count(n[0])), true},
+                           {std::string(inter_colour), fmt::format("between grains: {}", count(n[1])), true}};
+  bool any = false;
+  for (std::size_t g = 0; g < outlines.size(); ++g) any = any || marked(record, g);
+  if (any) key.push_back({std::string(marked_fill), layered(record) ? "layer" : "growing grains", false});
+  return d.finish_with_key(key);
 }
 
 std::array<int, 2> crack_counts(const dem::Record& record, double strain) {

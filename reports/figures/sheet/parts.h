@@ -26,6 +26,12 @@ struct Layout {
 };
 Layout layout_of(const dem::Record& record);
 
+/// What a colour of a drawing means.
+struct KeyItem {
+  std::string colour, text;
+  bool line = false;  ///< of a line; else of an area
+};
+
 /// Drawing on a box of `width` pixels: places in box widths, y upwards.
 class Drawing {
  public:
@@ -40,6 +46,8 @@ class Drawing {
   [[nodiscard]] double py(double y) const { return (y1_ - y) * scale_; }
   [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] std::string finish(double extra_below = 0) const;
+  /// With what its colours mean below it.
+  [[nodiscard]] std::string finish_with_key(const std::vector<KeyItem>& key);
 
  private:
   double x0_, y1_, scale_, width_, height_;
@@ -50,7 +58,7 @@ class Drawing {
 std::string grain_fill(std::size_t grain);
 /// Fill of grains that grow, or of the layer.
 constexpr std::string_view marked_fill = "#e9d9a8";
-constexpr std::string_view intra_colour = "#d55e00", inter_colour = "#0b3c5d";
+constexpr std::string_view intra_colour = "#bd4300", inter_colour = "#0b3c5d";
 
 /// The outlines of a record's grains, each as points.
 std::vector<std::vector<std::array<double, 2>>> outlines_of(const dem::Record& record);

@@ -25,28 +25,37 @@ render::Series sawtooth(const dem::Table& h, const std::string& loaded, const st
   return s;
 }
 
+std::string strain_title(const dem::Record& r) {
+  return r.text("test") == "growth" ? "Growth of radii (%)" : "Strain (%)";
+}
+
 render::Chart stress_chart(const dem::Record& r) {
   const dem::Table& h = r.table("history");
   render::Chart chart;
-  chart.x.title = r.text("test") == "growth" ? "Growth of radii (%)" : "Strain (%)";
+  chart.x.title = strain_title(r);
   chart.left.title = "Wall stress (10⁻³ k)";
-  chart.right.title = "Broken springs";
-  chart.right.low = 0;
   render::Series xx = sawtooth(h, "loaded_stress_xx", "stress_xx", 1e3),
                  yy = sawtooth(h, "loaded_stress_yy", "stress_yy", 1e3);
-  xx.label = "σxx", yy.label = "σyy";
-  xx.colour = render::palette(5), yy.colour = render::palette(6);
+  xx.label = "σ_{xx}", yy.label = "σ_{yy}";
+  xx.colour = render::palette(5), yy.colour = render::palette(4);
   yy.line = render::Line::dash;
-  render::Series breaks = curve(h, {"strain", "breaks", 100, 1});
-  breaks.x.insert(breaks.x.begin(), 0), breaks.y.insert(breaks.y.begin(), 0);
-  breaks.label = "broken springs";
-  breaks.colour = {0.35, 0.35, 0.35};
-  breaks.line = render::Line::dot;
-  breaks.side = render::Side::right;
-  chart.series = {xx, yy, breaks};
+  chart.series = {xx, yy};
   chart.legend = render::Chart::Legend::below;
-  chart.width = 560;
-  chart.height = 420;
+  chart.height = 320;
+  return chart;
+}
+
+render::Chart breaks_chart(const dem::Record& r) {
+  render::Chart chart;
+  chart.x.title = strain_title(r);
+  chart.left.title = "Broken springs";
+  chart.left.low = 0;
+  render::Series breaks = curve(r.table("history"), {"strain", "breaks", 100, 1});
+  breaks.x.insert(breaks.x.begin(), 0), breaks.y.insert(breaks.y.begin(), 0);
+  breaks.colour = render::palette(0);
+  chart.series = {breaks};
+  chart.legend = render::Chart::Legend::none;
+  chart.height = 320;
   return chart;
 }
 
@@ -76,22 +85,41 @@ double size_at(std::span<const double> values, double share) {
   return *at;
 }
 
-Panel field_panel(const dem::Record& r, const std::string& table, double strain, const std::string& column,
-                  const std::string& words, bool signed_values) {
+/// A field of stress, the same ends of its colours for all its pictures.
+struct Field {
+  std::string column, words;
+  bool has_sign = false;  ///< tension positive; else it is never negative
+  double low = 0, high = 0;
+};
+
+Field field_of(const dem::Record& r, const std::vector<std::string>& tables, Field field) {
+  double least = 1e300;
+  for (const std::string& table : tables) {
+    const auto value = r.table(table).real(field.column);
+    field.high = std::max(field.high, size_at(value, 0.99));
+    least = std::min(least, size_at(value, 0.01));
+  }
+  field.high = std::max(field.high, 1e-12);
+  // Where all of the sheet is stressed much alike, colours begin at the least of it.
+  field.low = field.has_sign ? -field.high : least > 0.3 * field.high && least < field.high ? least : 0.0;
+  return field;
+}
+
+render::Colour colour_of(const Field& field, double share) {
+  return field.has_sign ? diverging(2 * share - 1) : rising(share);
+}
+
+Panel field_panel(const dem::Record& r, const std::string& table, double strain, const Field& field) {
   const Layout l = layout_of(r);
   const auto place = r.table("particles").real("position");
   const dem::Table& t = r.table(table);
-  const auto value = t.real(column), move = t.real("displacement");
-  const double scale = std::max(size_at(value, 0.99), 1e-12);
-  // Where all of the sheet is stressed much alike, colours begin at the least of it.
-  const double least = signed_values ? 0.0 : size_at(value, 0.01);
-  const double low = least > 0.3 * scale && least < scale ? least : 0.0;
+  const auto value = t.real(field.column), move = t.real("displacement");
   render::Spheres spheres;
   spheres.cut_edges = false;
   for (std::size_t i = 0; i < value.size(); ++i) {
     spheres.centre.push_back({place[2 * i] + move[2 * i], place[2 * i + 1] + move[2 * i + 1], 0});
     spheres.radius.push_back(1.16 * l.radius);  // wide enough to leave no gap between three
-    spheres.colour.push_back(signed_values ? diverging(value[i] / scale) : rising((value[i] - low) / (scale - low)));
+    spheres.colour.push_back(colour_of(field, (value[i] - field.low) / (field.high - field.low)));
   }
   Picture p;
   p.scene.spheres = {spheres};
@@ -100,19 +128,18 @@ Panel field_panel(const dem::Record& r, const std::string& table, double strain,
   p.scene.camera.up = {0, 1, 0};
   p.scene.width = 900;
   p.scene.height = 900;
+  p.scene.axes = true;
   p.scale_bar = false;
-  p.label = words;
-  for (const double share : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
-    if (!signed_values && share < 0) continue;
-    const double at = low + share * (scale - low);
-    p.legend.push_back(
-        {signed_values ? diverging(share) : rising(share), at == 0 ? "0" : number(1e3 * at, 3) + " × 10⁻³ k"});
-  }
+  p.label = fmt::format("{} at {} %", field.words, number(100 * strain, 3));
+  p.scene.bar = render::ColourBar{.title = field.words + (field.has_sign ? " (10⁻³ k), tension positive" : " (10⁻³ k)"),
+                                  .low = 1e3 * field.low,
+                                  .high = 1e3 * field.high,
+                                  .colours = {}};
+  for (int k = 0; k < 64; ++k) p.scene.bar->colours.push_back(colour_of(field, (k + 0.5) / 64));
   const auto range = std::minmax_element(value.begin(), value.end());
   return {
-      .id = column + fmt::format("_{}", table.substr(table.size() - 4)),
-      .caption = fmt::format("{} at {} %; colours cover all but the outermost hundredth of the particles.", words,
-                             number(100 * strain, 3)),
+      .id = field.column + fmt::format("_{}", table.substr(table.size() - 4)),
+      .caption = fmt::format("{}; colours cover all but the outermost hundredth of the particles.", field.words),
       .alt = fmt::format("Values go from {} to {} in units of k.", number(*range.first, 2), number(*range.second, 2)),
       .content = p,
       .per_row = 2};
@@ -141,6 +168,13 @@ FigureContent stress_strain(const StudyResult& study) {
                             number(100 * r->value(quantity::strain_at_peak), 3)),
          .content = stress_chart(*r),
          .per_row = 2});
+    content.panels.push_back(
+        {.id = r->case_id + "_breaks",
+         .caption = label == "this run" ? "Broken springs so far." : "Broken springs so far, " + label + ".",
+         .alt = fmt::format("{} springs have broken at the end.",
+                            count(r->value(quantity::cracks_intra_tension) + r->value(quantity::cracks_inter_tension))),
+         .content = breaks_chart(*r),
+         .per_row = 2});
     const std::string start = label == "this run" ? std::string() : label + ": ";
     if (!r->has(quantity::onset_strain)) {
       said.push_back(start + "no spring broke");
@@ -164,6 +198,16 @@ FigureContent stress_strain(const StudyResult& study) {
 FigureContent energy(const StudyResult& study) {
   FigureContent content;
   std::vector<std::string> said;
+  double last_strain = 0, most = 0;  // ends of the axes that all panels share
+  for (const dem::Record* r : records_of(study)) {
+    if (r->text("solver") != "converged") continue;
+    const dem::Table& h = r->table("history");
+    const auto strain = h.real("strain"), boundary = h.real("boundary_work"), growth = h.real("growth_work");
+    for (std::size_t i = 0; i < strain.size(); ++i) {
+      last_strain = std::max(last_strain, 100 * strain[i]);
+      most = std::max(most, 1e6 * (boundary[i] + growth[i]));
+    }
+  }
   for (const dem::Record* r : records_of(study)) {
     if (r->text("solver") != "converged") continue;
     const dem::Table& h = r->table("history");
@@ -171,9 +215,17 @@ FigureContent energy(const StudyResult& study) {
                jumped = h.real("jumped");
     const auto boundary = h.real("boundary_work"), growth = h.real("growth_work");
     render::Chart chart;
-    render::Band stored{.label = "elastic", .x = {0}, .low = {0}, .high = {0}, .colour = render::palette(1)};
-    render::Band lost{
-        .label = "released by breaking and jumps", .x = {0}, .low = {0}, .high = {0}, .colour = render::palette(0)};
+    const auto band = [](const char* words, const render::Colour& colour) {
+      return render::Band{.label = words,
+                          .x = {0},
+                          .low = {0},
+                          .high = {0},
+                          .colour = colour,
+                          .opacity = 1,
+                          .outlined = true,
+                          .inside = true};
+    };
+    render::Band stored = band("elastic", {0.612, 0.773, 0.875}), lost = band("released", {0.239, 0.408, 0.533});
     render::Series work;
     work.label = "work done";
     work.x = work.y = {0};
@@ -189,13 +241,17 @@ FigureContent energy(const StudyResult& study) {
     chart.left.title = "Energy (10⁻⁶ k box²)";
     chart.left.low = 0;
     chart.legend = render::Chart::Legend::top_left;
-    chart.width = 560;
-    chart.height = 400;
+    chart.x.low = 0;
+    chart.x.high = last_strain;
+    chart.left.high = 1.06 * most;
+    chart.height = 300;
     const double residual = r->value(quantity::energy_residual);
     const std::string label = label_of(*r, study);
     content.panels.push_back(
         {.id = r->case_id,
-         .caption = label == "this run" ? std::string("Energy.") : fmt::format("Energy, {}.", label),
+         .caption = label == "this run"
+                        ? std::string("Energy; released is what breaking and jumps have taken.")
+                        : fmt::format("Energy, {}; released is what breaking and jumps have taken.", label),
          .alt = fmt::format("Work, elastic energy and released energy agree to {} of the work.", number(residual, 2)),
          .content = chart,
          .per_row = 2});
@@ -217,10 +273,13 @@ FigureContent stress_fields(const StudyResult& study) {
   if (snapshots.empty()) return content;
   std::vector<std::size_t> shown{0};
   if (snapshots.size() > 1) shown.push_back(snapshots.size() - 1);
-  for (const std::size_t k : shown) {
-    const auto& [name, strain] = snapshots[k];
-    content.panels.push_back(field_panel(*r, name, strain, "mean_stress", "Mean stress", true));
-    content.panels.push_back(field_panel(*r, name, strain, "differential_stress", "Differential stress", false));
+  std::vector<std::string> tables;
+  for (const std::size_t k : shown) tables.push_back(snapshots[k].first);
+  for (const Field& wanted : {Field{.column = "mean_stress", .words = "Mean stress", .has_sign = true},
+                              Field{.column = "differential_stress", .words = "Differential stress"}}) {
+    const Field field = field_of(*r, tables, wanted);
+    for (const std::size_t k : shown)
+      content.panels.push_back(field_panel(*r, snapshots[k].first, snapshots[k].second, field));
   }
   return content;
 }
@@ -280,7 +339,7 @@ FigureContent solvers(const StudyResult& study) {
          .caption = fmt::format("Fractures at {} %, {}: {} inside grains, {} between.", number(100 * strain, 3),
                                 words(r->text("solver")), count(n[0]), count(n[1])),
          .alt = fmt::format("Map of {} broken springs.", count(n[0] + n[1])),
-         .content = fracture_map(*r, strain, 430),
+         .content = fracture_map(*r, strain, render::column_width),
          .per_row = 2});
   }
   content.finding = fmt::format(

@@ -16,7 +16,7 @@
 namespace reports::texture {
 namespace {
 
-constexpr int half_width = 440, curves_height = 380;
+constexpr int curves_height = 340;
 
 const render::Colour peak_colour = render::palette(0), damage_colour = render::palette(1),
                      initiation_colour = render::palette(2), strain_colour = render::palette(3);
@@ -60,13 +60,12 @@ render::Chart against_strain(const std::vector<SeriesCase>& cases, const Column&
   chart.left.title = column.title;
   add_curves(chart, cases, {"axial_strain", column.name, 100, column.factor}, up_to);
   chart.legend = render::Chart::Legend::below;
-  chart.width = half_width;
   chart.height = curves_height;
   return chart;
 }
 
 void mark_initiation(render::Chart& chart, const std::vector<SeriesCase>& cases, const ValueOf& height) {
-  render::Series marks{.label = "σci by axial stiffness",
+  render::Series marks{.label = "σ_{ci} by axial stiffness",
                        .x = {},
                        .y = {},
                        .colour = {0, 0, 0},
@@ -146,9 +145,9 @@ render::Chart envelope_chart(const StudyResult& study, const analysis::Envelopes
   // The two readings that the paper's text gives: where the stiffness leaves its plateau, and its number, the stress at 0.1 %.
   const analysis::Initiation &by_stiffness = found.initiation[0], &by_strain = found.initiation[1];
   chart.series.push_back(
-      points(by_stiffness.points, "σci by axial stiffness", initiation_colour, render::Marker::triangle));
+      points(by_stiffness.points, "σ_{ci} by axial stiffness", initiation_colour, render::Marker::triangle));
   chart.series.push_back(
-      points(by_strain.points, "σci as stress at 0.1 % strain", strain_colour, render::Marker::cross));
+      points(by_strain.points, "σ_{ci} as stress at 0.1 % strain", strain_colour, render::Marker::cross));
   std::erase_if(chart.series, [](const render::Series& s) { return s.x.empty(); });
   if (!tension.empty()) {
     render::Series ts{.label = "direct tension",
@@ -187,14 +186,13 @@ render::Chart envelope_chart(const StudyResult& study, const analysis::Envelopes
   line("", strain_colour, render::Line::dash, [&](double x) { return intercept + slope * x; });
   line("Martin’s laboratory peak", {0.4, 0.4, 0.4}, render::Line::dot,
        Published{published("martin_sigma_c"), published("martin_m"), 1});
-  const render::Colour range_colour{0.55, 0.55, 0.55};
-  line("laboratories’ σci, Eq. 12", range_colour, render::Line::dash_dot,
+  const render::Colour range_colour{0.5, 0.5, 0.5};
+  line("laboratories’ σ_{ci}, Eq. 12", range_colour, render::Line::dash_dot,
        [&](double x) { return laboratories.share_low * found.ucs + laboratories.slope_low * x; });
   line("", range_colour, render::Line::dash_dot,
        [&](double x) { return laboratories.share_high * found.ucs + laboratories.slope_high * x; });
   chart.legend = render::Chart::Legend::below;
-  chart.width = 640;
-  chart.height = 480;
+  chart.height = 460;
   return chart;
 }
 
@@ -370,8 +368,7 @@ FigureContent confinement_after_peak(const StudyResult& study) {
   beside.line = render::Line::dash;
   chart.series.push_back(beside);
   chart.legend = render::Chart::Legend::bottom_right;
-  chart.width = 600;
-  chart.height = 280;
+  chart.height = 300;
   const std::string ratios = by_case(cases, residual, 2, "");
   content.panels.push_back(
       {.id = "residual",

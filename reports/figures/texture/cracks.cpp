@@ -36,7 +36,7 @@ render::Chart bars_by_class(const std::vector<SeriesCase>& cases) {
   bars.categories.emplace_back("all");
   for (const SeriesCase& item : cases) {
     bars.labels.push_back(item.label);
-    bars.colours.push_back(item.colour);
+    bars.colours.push_back(render::ordered(bars.colours.size(), cases.size()));
     std::vector<double> values, errors;
     for (std::size_t k = 0; k <= crack_classes().size(); ++k) {
       const Spread spread =
@@ -55,16 +55,12 @@ render::Chart bars_by_class(const std::vector<SeriesCase>& cases) {
   chart.left.title = "Number of cracks";
   chart.bars = bars;
   chart.legend = render::Chart::Legend::top_left;
-  chart.width = 720;  // room for the numbers above the bars
   chart.height = 340;
   return chart;
 }
 
 // Lines along the swept parameter: a line a class, and one for all cracks.
 render::Chart lines_by_class(const std::vector<SeriesCase>& cases, const dem::Parameter& axis, bool shares) {
-  constexpr std::array lines{render::Line::solid, render::Line::dash, render::Line::dash_dot, render::Line::dot};
-  constexpr std::array markers{render::Marker::circle, render::Marker::square, render::Marker::diamond,
-                               render::Marker::triangle};
   render::Chart chart;
   chart.x.title = axis_title(axis);
   chart.left.title = shares ? "Share of cracks (%)" : "Number of cracks";
@@ -74,8 +70,8 @@ render::Chart lines_by_class(const std::vector<SeriesCase>& cases, const dem::Pa
     render::Series series = means(cases, shares ? share_of(one) : number_of(one));
     series.label = one.name;
     series.colour = one.colour;
-    series.line = lines[k];
-    series.marker = markers[k];
+    series.line = render::line_style(k);
+    series.marker = render::marker_style(k);
     if (!series.x.empty()) chart.series.push_back(series);
   }
   if (!shares) {
@@ -86,8 +82,7 @@ render::Chart lines_by_class(const std::vector<SeriesCase>& cases, const dem::Pa
     if (!total.x.empty()) chart.series.push_back(total);
   }
   chart.legend = render::Chart::Legend::below;
-  chart.width = 440;
-  chart.height = 380;
+  chart.height = 340;
   return chart;
 }
 
@@ -183,6 +178,16 @@ TextTable cracks_by_minerals(const dem::Record& record) {
   return table;
 }
 
+constexpr const char* density_caption =
+    "Crack area per volume on the longitudinal section, each crack spread over a grain; one scale for all.";
+
+std::string density_alt(const std::string& what, const CrackDensity& density) {
+  double mean = 0;
+  for (const double v : density.value) mean += v / static_cast<double>(density.value.size());
+  return fmt::format("{}: crack area per volume on the section, {} mm² per mm³ in the mean, {} at most.", what,
+                     number(mean, 2), number(density.largest(), 2));
+}
+
 std::string discs_note(double scale) {
   return (scale < 1 ? fmt::format(", drawn at {:.1g} of their diameter", scale) : std::string()) + ".";
 }
@@ -210,8 +215,21 @@ FigureContent crack_maps(const StudyResult& study) {
         {.id = "section_" + item.id,
          .caption = "Cracks within half a mean particle diameter of the longitudinal section, over the minerals.",
          .alt = "Section at " + item.label + " with the traces of the cracks near it over the minerals.",
-         .content = section_cracks(*item.record, all_cracks, item.label, 480),
+         .content = section_cracks(study, *item.record, all_cracks, item.label, 480),
          .per_row = per_row});
+  }
+  std::vector<CrackDensity> densities;
+  double densest = 0;
+  for (const SeriesCase& item : cases) {
+    densities.push_back(crack_density(*item.record, all_cracks));
+    densest = std::max(densest, densities.back().largest());
+  }
+  for (std::size_t i = 0; i < cases.size() && densest > 0; ++i) {
+    content.panels.push_back({.id = "density_" + cases[i].id,
+                              .caption = density_caption,
+                              .alt = density_alt(cases[i].label, densities[i]),
+                              .content = density_picture(*cases[i].record, densities[i], densest, cases[i].label, 480),
+                              .per_row = per_row});
   }
   std::vector<std::string> totals;
   for (const SeriesCase& item : cases) {
@@ -248,7 +266,8 @@ FigureContent crack_counts(const StudyResult& study) {
     content.panels.push_back({.id = "",
                               .caption = "Cracks at the end of loading, by class and aspect ratio." + with_its(cases),
                               .alt = found,
-                              .content = bars_by_class(cases)});
+                              .content = bars_by_class(cases),
+                              .per_row = 1});
   } else {
     content.panels.push_back({.id = "numbers",
                               .caption = "Cracks at the end of loading, by class." + with_its(cases),
@@ -336,6 +355,8 @@ FigureContent crack_stages(const StudyResult& study) {
   const SeriesCase& base = cases.front();
   const double scale = legible_disc_scale(*base.record);
   std::vector<Panel> discs, sections;
+  std::vector<std::pair<Stage, CrackDensity>> densities;
+  double densest = 0;
   std::vector<std::string> said;
   for (const Stage& stage : stages) {
     const dem::Table* moment = snapshot(*base.record, stage.moment);
@@ -352,8 +373,10 @@ FigureContent crack_stages(const StudyResult& study) {
         {.id = std::string(stage.moment) + "_section",
          .caption = "Cracks within half a mean particle diameter of the longitudinal section, over the minerals.",
          .alt = std::string(stage.name) + ": traces of the cracks near the section, over the minerals.",
-         .content = section_cracks(*base.record, so_far, std::string(stage.name), 340),
+         .content = section_cracks(study, *base.record, so_far, std::string(stage.name), 340),
          .per_row = 5});
+    densities.emplace_back(stage, crack_density(*base.record, so_far));
+    densest = std::max(densest, densities.back().second.largest());
   }
   if (discs.empty()) {
     content.panels.push_back(
@@ -362,6 +385,14 @@ FigureContent crack_stages(const StudyResult& study) {
   }
   content.panels.insert(content.panels.end(), discs.begin(), discs.end());
   content.panels.insert(content.panels.end(), sections.begin(), sections.end());
+  for (const auto& [stage, density] : densities) {
+    if (!(densest > 0)) break;
+    content.panels.push_back({.id = std::string(stage.moment) + "_density",
+                              .caption = density_caption,
+                              .alt = density_alt(std::string(stage.name), density),
+                              .content = density_picture(*base.record, density, densest, std::string(stage.name), 340),
+                              .per_row = 5});
+  }
   content.panels.push_back({.id = "by_minerals",
                             .caption = "Number of cracks in each stage by the minerals of the two particles.",
                             .alt = "",

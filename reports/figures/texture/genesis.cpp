@@ -16,12 +16,11 @@ namespace {
 constexpr int narrow = 320;                         // px, of pictures beside each other
 const render::Colour gap_colour{0.99, 0.99, 0.99};  // the paper's white balls
 const render::Colour grey{0.80, 0.82, 0.84};
-const render::Colour joint_colour{0.10, 0.35, 0.75}, bond_colour{0.15, 0.60, 0.20};  // as the paper's Fig. 5h
-const render::Colour boundary_same{0.93, 0.55, 0.10}, boundary_other{0.75, 0.05, 0.05};
+const render::Colour joint_colour = render::palette(0), bond_colour = render::palette(2);  // as the paper's Fig. 5h
 
 // Particles after `round` rounds of growth: those without a grain yet are white.
-render::Spheres after_round(const dem::Record& record, std::int32_t round) {
-  render::Spheres spheres = particles_by_mineral(record);
+render::Spheres after_round(const StudyResult& study, const dem::Record& record, std::int32_t round) {
+  render::Spheres spheres = particles_by_mineral(study, record);
   const auto claimed = record.table("particles").integer("growth_round");
   for (std::size_t i = 0; i < claimed.size(); ++i) {
     if (claimed[i] > round) spheres.colour[i] = gap_colour;
@@ -39,7 +38,7 @@ std::size_t gaps_after(const dem::Record& record, std::int32_t round) {
                                                         [&](std::int32_t r) { return r > round; }));
 }
 
-render::Spheres seeds_of(const dem::Record& record) {
+render::Spheres seeds_of(const StudyResult& study, const dem::Record& record) {
   const dem::Table& grains = record.table("grains");
   const auto centre = grains.real("centre"), radius = grains.real("radius");
   const auto mineral = grains.integer("mineral");
@@ -48,19 +47,19 @@ render::Spheres seeds_of(const dem::Record& record) {
   for (std::size_t g = 0; g < radius.size(); ++g) {
     spheres.centre.push_back({centre[3 * g], centre[3 * g + 1], centre[3 * g + 2]});
     spheres.radius.push_back(radius[g]);
-    spheres.colour.push_back(mineral_colour(names.at(static_cast<std::size_t>(mineral[g]))));
+    spheres.colour.push_back(mineral_colour(study, names.at(static_cast<std::size_t>(mineral[g]))));
   }
   return spheres;
 }
 
-render::Scene scene_of(const dem::Record& record, render::Spheres spheres, bool section) {
-  render::Scene scene = section ? section_scene(record, narrow) : specimen_scene(record, narrow);
+render::Scene scene_of(const StudyResult& study, const dem::Record& record, render::Spheres spheres, bool section) {
+  render::Scene scene = section ? section_scene(study, record, narrow) : specimen_scene(study, record, narrow);
   scene.spheres = {std::move(spheres)};
   return scene;
 }
 
-std::vector<LegendEntry> with_gaps(const dem::Record& record) {
-  std::vector<LegendEntry> legend = mineral_legend(record);
+std::vector<LegendEntry> with_gaps(const StudyResult& study, const dem::Record& record) {
+  std::vector<LegendEntry> legend = mineral_legend(study, record);
   legend.push_back({gap_colour, "no grain yet"});
   return legend;
 }
@@ -93,20 +92,20 @@ ContactLines contact_lines(const dem::Record& record, const std::vector<render::
     ++result.numbers[k];
     if (std::abs(position[3 * i + 1] + position[3 * j + 1]) > 2 * reach) continue;
     result.lines.push_back(
-        {{{position[3 * i], 0, position[3 * i + 2]}, {position[3 * j], 0, position[3 * j + 2]}}, colours[k], 1.4});
+        {{{position[3 * i], 0, position[3 * i + 2]}, {position[3 * j], 0, position[3 * j + 2]}}, colours[k], 0.8});
   }
   return result;
 }
 
-Picture contacts_picture(const dem::Record& record, const ContactLines& contacts,
+Picture contacts_picture(const StudyResult& study, const dem::Record& record, const ContactLines& contacts,
                          const std::vector<LegendEntry>& legend, const std::string& label, bool zoomed) {
-  render::Scene scene = specimen_scene(record, zoomed ? 480 : narrow);
+  render::Scene scene = specimen_scene(study, record, narrow);
   scene.spheres.clear();
   scene.lines = contacts.lines;
   if (zoomed) {
     scene.camera.frame = window(record);
     scene.height = scene.width;
-    for (render::Polyline& line : scene.lines) line.width = 2.6;
+    for (render::Polyline& line : scene.lines) line.width = 1.8;
   }
   return {.scene = std::move(scene), .label = label, .legend = legend};
 }
@@ -131,29 +130,33 @@ FigureContent genesis_steps(const StudyResult& study) {
                               .content = std::move(picture),
                               .per_row = 4});
   };
-  render::Scene seeds = scene_of(*record, seeds_of(*record), false);
+  render::Scene seeds = scene_of(study, *record, seeds_of(study, *record), false);
   const auto frame = frame_of(size_of(*record));
   seeds.outline = {render::Outline::Shape::cylinder, frame[0], frame[1]};
   add("seeds", "Grain seeds in the core.", count(grains) + " spheres of four minerals spread through the cylinder.",
-      {.scene = std::move(seeds), .label = count(grains) + " seeds", .legend = mineral_legend(*record)});
-  render::Spheres bare = particles_by_mineral(*record);
+      {.scene = std::move(seeds), .label = count(grains) + " seeds", .legend = mineral_legend(study, *record)});
+  render::Spheres bare = particles_by_mineral(study, *record);
   std::ranges::fill(bare.colour, grey);
   add("packing", "Particles packed in the cylinder.",
       count(particles) + " particles packed in the cylinder, of no mineral yet.",
-      {.scene = scene_of(*record, std::move(bare), false), .label = count(particles) + " particles", .legend = {}});
+      {.scene = scene_of(study, *record, std::move(bare), false),
+       .label = count(particles) + " particles",
+       .legend = {}});
   add("masked", "Masked by ellipsoids.",
       percent(gaps / particles) + " of the particles are in no ellipsoid and drawn white.",
-      {.scene = scene_of(*record, after_round(*record, 0), false),
+      {.scene = scene_of(study, *record, after_round(study, *record, 0), false),
        .label = count(gaps) + " gap particles",
-       .legend = with_gaps(*record)});
+       .legend = with_gaps(study, *record)});
   add("masked_section", "Masked specimen, cut along the axis.", "White gap particles lie between the grains.",
-      {.scene = scene_of(*record, after_round(*record, 0), true), .label = "section", .legend = with_gaps(*record)});
+      {.scene = scene_of(study, *record, after_round(study, *record, 0), true),
+       .label = "section",
+       .legend = with_gaps(study, *record)});
   add("grown", "After growth.", "Every particle belongs to a grain.",
-      {.scene = specimen_scene(*record, narrow),
+      {.scene = specimen_scene(study, *record, narrow),
        .label = count(grains) + " grains",
-       .legend = mineral_legend(*record)});
+       .legend = mineral_legend(study, *record)});
   add("grown_section", "Grown specimen, cut along the axis.", "Grains of four minerals fill the section.",
-      {.scene = section_scene(*record, narrow), .label = "section", .legend = mineral_legend(*record)});
+      {.scene = section_scene(study, *record, narrow), .label = "section", .legend = mineral_legend(study, *record)});
   content.finding = fmt::format(
       "{} seeds and {} particles; ellipsoids mask {} of the particles, and {} rounds of growth assign the other {}; "
       "the coordination number is {}, the porosity {}.",
@@ -174,8 +177,8 @@ FigureContent genesis_growth(const StudyResult& study) {
   if (rounds > 1) shown.push_back(1);
   if (rounds > 0) shown.push_back(rounds);
   for (const std::int32_t round : shown) {
-    render::Scene scene = section_scene(*record, 480);
-    scene.spheres = {after_round(*record, round)};
+    render::Scene scene = section_scene(study, *record, 480);
+    scene.spheres = {after_round(study, *record, round)};
     scene.camera.frame = window(*record);
     scene.height = scene.width;
     const std::string left = count(static_cast<double>(gaps_after(*record, round)));
@@ -184,7 +187,7 @@ FigureContent genesis_growth(const StudyResult& study) {
          .caption = round == 0 ? "After masking." : fmt::format("After round {} of growth.", round),
          .alt = fmt::format(
              "A few grains in the middle of the section; {} particles of the specimen are without a grain.", left),
-         .content = Picture{.scene = std::move(scene), .label = left + " left", .legend = with_gaps(*record)},
+         .content = Picture{.scene = std::move(scene), .label = left + " left", .legend = with_gaps(study, *record)},
          .per_row = 3});
   }
   TextTable table{{"Round of growth", "Particles assigned", "Particles left"}, {}};
@@ -217,9 +220,8 @@ FigureContent genesis_contacts(const StudyResult& study) {
   const auto kind = record->table("contacts").integer("kind");
   const auto names = minerals_of(*record);
   std::vector<render::Colour> colours;
-  for (const std::string& name : names) colours.push_back(mineral_colour(name));
-  colours.push_back(boundary_same);
-  colours.push_back(boundary_other);
+  // Thin lines on white: the colours of the minerals are too light for them.
+  for (std::size_t k = 0; k < names.size() + 2; ++k) colours.push_back(render::palette(k));
   const ContactLines groups = contact_lines(*record, colours, [&](std::size_t, std::size_t i, std::size_t j) {
     if (grain[i] == grain[j]) return static_cast<std::size_t>(mineral[i]);
     return names.size() + (mineral[i] == mineral[j] ? 0 : 1);
@@ -232,10 +234,10 @@ FigureContent genesis_contacts(const StudyResult& study) {
   for (std::size_t k = 0; k < names.size(); ++k) {
     group_legend.push_back({colours[k], "inside " + names[k], count(static_cast<double>(groups.numbers[k]))});
   }
+  group_legend.push_back({colours[names.size()], "between grains of one mineral",
+                          count(static_cast<double>(groups.numbers[names.size()]))});
   group_legend.push_back(
-      {boundary_same, "between grains of one mineral", count(static_cast<double>(groups.numbers[names.size()]))});
-  group_legend.push_back(
-      {boundary_other, "between minerals", count(static_cast<double>(groups.numbers[names.size() + 1]))});
+      {colours[names.size() + 1], "between minerals", count(static_cast<double>(groups.numbers[names.size() + 1]))});
   law_legend = {{joint_colour, "flat joint", count(static_cast<double>(laws.numbers[0]))},
                 {bond_colour, "parallel bond", count(static_cast<double>(laws.numbers[1]))}};
   const double inter = static_cast<double>(groups.numbers[names.size()] + groups.numbers[names.size() + 1]) / all;
@@ -245,22 +247,22 @@ FigureContent genesis_contacts(const StudyResult& study) {
   content.panels.push_back({.id = "groups",
                             .caption = "Contacts near the section, by group.",
                             .alt = by_group,
-                            .content = contacts_picture(*record, groups, group_legend, "groups", false),
+                            .content = contacts_picture(study, *record, groups, group_legend, "groups", false),
                             .per_row = 4});
   content.panels.push_back({.id = "groups_near",
                             .caption = "A few grains of the section.",
                             .alt = by_group,
-                            .content = contacts_picture(*record, groups, group_legend, "groups, enlarged", true),
+                            .content = contacts_picture(study, *record, groups, group_legend, "groups, enlarged", true),
                             .per_row = 4});
   content.panels.push_back({.id = "laws",
                             .caption = "Contacts near the section, by law.",
                             .alt = by_law,
-                            .content = contacts_picture(*record, laws, law_legend, "laws", false),
+                            .content = contacts_picture(study, *record, laws, law_legend, "laws", false),
                             .per_row = 4});
   content.panels.push_back({.id = "laws_near",
                             .caption = "A few grains of the section.",
                             .alt = by_law,
-                            .content = contacts_picture(*record, laws, law_legend, "laws, enlarged", true),
+                            .content = contacts_picture(study, *record, laws, law_legend, "laws, enlarged", true),
                             .per_row = 4});
   const bool same = groups.numbers[names.size()] + groups.numbers[names.size() + 1] == laws.numbers[1];
   content.agreement = same ? Agreement::agrees : Agreement::disagrees;

@@ -18,6 +18,7 @@ namespace {
 
 constexpr int narrow = 320;  // px, of pictures beside each other
 const render::Colour steel{0.45, 0.48, 0.52};
+const render::Colour frame_colour{0.24, 0.24, 0.24};  // axes of the specimen
 
 render::Point turned(const render::Point& p, double dip_direction, double dip) {
   // R_z(dip direction) R_y(-dip): the long axis x goes to (cos dip cos dd, cos dip sin dd, sin dip).
@@ -46,7 +47,7 @@ render::Scene ellipsoid_scene(double ar, double dip_direction, double dip, const
         [&](double t) {
           return render::Point{a * h, r * std::cos(t), r * std::sin(t)};
         },
-        shell, h == 0 ? 2.4 : 1.2);
+        shell, h == 0 ? 1.6 : 0.8);
   }
   for (int k = 0; k < 6; ++k) {  // meridians
     const double angle = std::numbers::pi * k / 6;
@@ -54,20 +55,20 @@ render::Scene ellipsoid_scene(double ar, double dip_direction, double dip, const
         [&](double t) {
           return render::Point{a * std::cos(t), b * std::sin(t) * std::cos(angle), b * std::sin(t) * std::sin(angle)};
         },
-        shell, k % 3 == 0 ? 2.4 : 1.2);
+        shell, k % 3 == 0 ? 1.6 : 0.8);
   }
   const auto axis = [&](const render::Point& end, const render::Colour& colour, bool own) {
     const render::Point from = own ? place({-end[0], -end[1], -end[2]}) : render::Point{0, 0, 0};
     scene.lines.push_back(
-        {{from, own ? place(end) : end}, colour, own ? 3.5 : 2.5, own ? render::Line::dash : render::Line::solid});
+        {{from, own ? place(end) : end}, colour, own ? 2.2 : 1.4, own ? render::Line::dash : render::Line::solid});
   };
   axis({1.25 * a, 0, 0}, {0.75, 0.05, 0.05}, true);
-  axis({0, 1.25 * b, 0}, {0.66, 0.46, 0.0}, true);
-  axis({0, 0, 1.25 * b}, {0.66, 0.46, 0.0}, true);
+  axis({0, 1.25 * b, 0}, {0.74, 0.52, 0.0}, true);
+  axis({0, 0, 1.25 * b}, {0.74, 0.52, 0.0}, true);
   const double reach = 2.1;
-  axis({reach, 0, 0}, {0, 0, 0}, false);
-  axis({0, reach, 0}, {0.35, 0.35, 0.35}, false);
-  axis({0, 0, reach}, {0.6, 0.6, 0.6}, false);
+  for (const render::Point& end : {render::Point{reach, 0, 0}, {0, reach, 0}, {0, 0, reach}})
+    axis(end, frame_colour, false);
+  scene.axes = true;
   scene.camera.direction = {0.55, 0.75, -0.37};
   scene.camera.frame = {{{-1.3, -1.3, -1.1}, {1.6, 1.6, 1.7}}};
   scene.width = 400;
@@ -90,8 +91,8 @@ render::Discs cylinder(double radius, double low, double high, const render::Col
   return discs;
 }
 
-render::Scene setup_scene(const dem::Record& record, bool section) {
-  render::Scene scene = section ? section_scene(record, narrow) : specimen_scene(record, narrow);
+render::Scene setup_scene(const StudyResult& study, const dem::Record& record, bool section) {
+  render::Scene scene = section ? section_scene(study, record, narrow) : specimen_scene(study, record, narrow);
   const Size size = size_of(record);
   const double half = 0.72 * size.diameter, margin = 0.16 * size.height;
   scene.camera.frame = {{{-half, -half, size.z_low - margin}, {half, half, size.z_low + size.height + margin}}};
@@ -154,10 +155,8 @@ FigureContent ellipsoid_turns(const StudyResult& study) {
   if (example) dip = 35 * std::numbers::pi / 180, direction = 40 * std::numbers::pi / 180;
   constexpr double ar = 2;
   const std::vector<LegendEntry> legend{{{0.75, 0.05, 0.05}, "long axis, 2a"},
-                                        {{0.66, 0.46, 0.0}, "short axes, 2b = 2c"},
-                                        {{0, 0, 0}, "x"},
-                                        {{0.35, 0.35, 0.35}, "y"},
-                                        {{0.6, 0.6, 0.6}, "z"}};
+                                        {{0.74, 0.52, 0.0}, "short axes, 2b = 2c"},
+                                        {frame_colour, "axes of the specimen"}};
   const auto add = [&](const char* id, const std::string& caption, double dd, double d, const render::Point& centre) {
     content.panels.push_back(
         {.id = id,
@@ -195,10 +194,10 @@ FigureContent test_setups(const StudyResult& study) {
   const Size size = size_of(*record);
   const double thickness = 0.04 * size.height, radius = 0.62 * size.diameter;
   const double grip = study.scenario->real("direct_tension.grip") * size.height;
-  render::Scene pressed = setup_scene(*record, false);
+  render::Scene pressed = setup_scene(study, *record, false);
   pressed.discs.push_back(cylinder(radius, size.z_low - thickness, size.z_low, steel));
   pressed.discs.push_back(cylinder(radius, size.z_low + size.height, size.z_low + size.height + thickness, steel));
-  std::vector<LegendEntry> with_platens = mineral_legend(*record), with_grips = with_platens;
+  std::vector<LegendEntry> with_platens = mineral_legend(study, *record), with_grips = with_platens;
   with_platens.push_back({steel, "platens"});
   content.panels.push_back(
       {.id = "compression",
@@ -206,7 +205,7 @@ FigureContent test_setups(const StudyResult& study) {
        .alt = "The specimen between two platens.",
        .content = Picture{.scene = std::move(pressed), .label = "compression", .legend = with_platens},
        .per_row = 4});
-  render::Scene pulled = setup_scene(*record, false);
+  render::Scene pulled = setup_scene(study, *record, false);
   std::size_t gripped = 0;
   for (std::size_t i = 0; i < pulled.spheres[0].centre.size(); ++i) {
     const double z = pulled.spheres[0].centre[i][2] - size.z_low;
@@ -221,12 +220,13 @@ FigureContent test_setups(const StudyResult& study) {
        .alt = fmt::format("Discs of {:.2f} mm at both ends, {} particles, are gripped.", 1e3 * grip, gripped),
        .content = Picture{.scene = std::move(pulled), .label = "direct tension", .legend = with_grips},
        .per_row = 4});
-  content.panels.push_back(
-      {.id = "section",
-       .caption = "Cut along its axis.",
-       .alt = "The specimen cut along its axis.",
-       .content = Picture{.scene = setup_scene(*record, true), .label = "section", .legend = mineral_legend(*record)},
-       .per_row = 4});
+  content.panels.push_back({.id = "section",
+                            .caption = "Cut along its axis.",
+                            .alt = "The specimen cut along its axis.",
+                            .content = Picture{.scene = setup_scene(study, *record, true),
+                                               .label = "section",
+                                               .legend = mineral_legend(study, *record)},
+                            .per_row = 4});
   constexpr double published_grip = 2.5 / 50;  // of the height
   content.agreement = std::abs(grip / size.height - published_grip) < 1e-9 ? Agreement::agrees : Agreement::disagrees;
   content.finding =
@@ -350,8 +350,10 @@ FigureContent texture_by_seed(const StudyResult& study) {
     chart.left.title = "Inter-grain contacts (%)";
     render::Series ours = means(cases, share);
     ours.label = "this study, mean and standard deviation over seeds";
-    ours.marker = render::Marker::circle;
     chart.series.push_back(ours);
+    add_published(
+        chart, published_points(study, {{1, "texture_inter_grain_share_ar_1"}, {3, "texture_inter_grain_share_ar_3"}}),
+        "published (Fig. 18)");
     const double base = analysis::spread(cases.front(), share).mean;
     const auto line = [&](const char* label, double (*surface)(double), render::Line kind, std::size_t colour) {
       const double first = cases.front().value;
@@ -365,8 +367,7 @@ FigureContent texture_by_seed(const StudyResult& study) {
     line("in proportion to the surface of the ellipsoid", exact_surface, render::Line::dash, 1);
     line("in proportion to Eq. 14", published_surface, render::Line::dot, 2);
     chart.legend = render::Chart::Legend::below;
-    chart.width = 640;
-    chart.height = 420;
+    chart.height = 360;
     content.panels.push_back({.id = "share",
                               .caption = "Share of inter-grain contacts against the aspect ratio.",
                               .alt = by_case(cases, share, 3, "%"),

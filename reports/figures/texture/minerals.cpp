@@ -40,6 +40,36 @@ Spread of_first(const std::vector<SeriesCase>& cases, const ValueOf& value) {
   return cases.empty() ? Spread{.mean = std::nan("")} : analysis::spread(cases.front(), value);
 }
 
+/// One property of all minerals, ours and published.
+struct PropertyBars {
+  std::string id, title, caption;
+  std::vector<double> ours{}, errors{}, published{};
+};
+
+render::Chart property_chart(PropertyBars of, const std::vector<std::string>& minerals) {
+  render::Chart chart;
+  render::Bars bars;
+  bars.categories = minerals;
+  bars.labels = {"this study"};
+  bars.colours = {render::palette(0)};
+  double highest = 0;
+  for (const auto* values : {&of.ours, &of.published})
+    for (const double v : *values)
+      if (std::isfinite(v)) highest = std::max(highest, v);
+  if (std::ranges::any_of(of.errors, [](double v) { return std::isfinite(v); })) bars.errors = {of.errors};
+  bars.values = {of.ours};
+  add_published(bars, of.published, "published (Table 3)");
+  bars.print_values = bars.errors.empty();
+  bars.value_format = "{:.3g}";
+  chart.bars = bars;
+  chart.left.title = of.title;
+  chart.left.low = 0;
+  chart.left.high = 1.25 * highest;  // an interval from few points may be many times as long
+  chart.legend = render::Chart::Legend::below;
+  chart.height = 280;
+  return chart;
+}
+
 std::string beside(const Spread& ours, double theirs, int digits) {
   if (ours.count == 0) return std::isfinite(theirs) ? "– / " + shortest(theirs) : "–";
   return number(ours.mean, digits) + (ours.count > 1 ? " ± " + number(ours.deviation, 2) : "") +
@@ -61,6 +91,13 @@ FigureContent mineral_properties(const StudyResult& study) {
   add_missing(content, study, {test_compression, test_tension});
   TextTable table{{"Mineral", "E (GPa)", "TS (MPa)", "UCS (MPa)", "m (95 % interval)"}, {}};
   std::vector<std::string> said;
+  std::array bars{
+      PropertyBars{.id = "modulus", .title = "Young’s modulus (GPa)", .caption = "Young’s modulus of the minerals."},
+      PropertyBars{.id = "tensile_strength", .title = "TS (MPa)", .caption = "Tensile strength of the minerals."},
+      PropertyBars{.id = "ucs", .title = "UCS (MPa)", .caption = "Compressive strength of the minerals."},
+      PropertyBars{.id = "m",
+                   .title = "Hoek-Brown m",
+                   .caption = "Hoek-Brown m of the minerals; bars are 95 % intervals where there are."}};
   for (const std::string& mineral : minerals_tested(study)) {
     const StudyResult part = of_mineral(study, mineral);
     const auto pressed = series_of(part, test_compression, parameter::confining_pressure);
@@ -74,6 +111,17 @@ FigureContent mineral_properties(const StudyResult& study) {
         {mineral, beside(modulus, theirs.young_modulus, 3), beside(ts, theirs.tensile_strength, 3),
          beside(ucs, theirs.ucs, 4),
          (m ? estimate_text(*m, 3, true) : "–") + (std::isfinite(theirs.m) ? " / " + shortest(theirs.m) : "")});
+    const auto plotted = [&](std::size_t k, double ours, double error, double published) {
+      bars[k].ours.push_back(ours);
+      bars[k].errors.push_back(error);
+      bars[k].published.push_back(published);
+    };
+    const auto of = [](const Spread& spread) { return spread.count > 0 ? spread.mean : std::nan(""); };
+    const auto error = [](const Spread& spread) { return spread.count > 1 ? spread.deviation : std::nan(""); };
+    plotted(0, of(modulus), error(modulus), theirs.young_modulus);
+    plotted(1, of(ts), error(ts), theirs.tensile_strength);
+    plotted(2, of(ucs), error(ucs), theirs.ucs);
+    plotted(3, m ? m->value : std::nan(""), m && m->has_interval() ? 0.5 * (m->high - m->low) : std::nan(""), theirs.m);
     std::vector<std::string> parts;
     const auto share = [&](const char* name, double ours, double published_value) {
       if (std::isfinite(ours) && std::isfinite(published_value)) {
@@ -92,6 +140,13 @@ FigureContent mineral_properties(const StudyResult& study) {
                             .alt = "",
                             .content = table,
                             .per_row = 1});
+  for (PropertyBars& one : bars) {
+    if (std::ranges::none_of(one.ours, [](double v) { return std::isfinite(v); })) continue;
+    content.panels.push_back({.id = one.id,
+                              .caption = one.caption,
+                              .alt = one.caption + " The numbers are in the table.",
+                              .content = property_chart(std::move(one), minerals_tested(study))});
+  }
   if (!said.empty()) content.finding = "Ours over the published values: " + joined(said, "; ") + ".";
   return content;
 }
@@ -107,9 +162,8 @@ FigureContent mineral_envelopes(const StudyResult& study) {
   chart.x.title = axis_title(parameter::confining_pressure);
   chart.left.title = "Peak axial stress σ₁ (MPa)";
   chart.left.low = 0;
-  constexpr std::array markers{render::Marker::circle, render::Marker::square, render::Marker::triangle,
-                               render::Marker::diamond};
   std::vector<std::string> said;
+  bool explained = false;
   std::size_t index = 0;
   for (const std::string& mineral : minerals_tested(study)) {
     const analysis::Envelopes found = envelopes_of(study, mineral);
@@ -120,8 +174,7 @@ FigureContent mineral_envelopes(const StudyResult& study) {
                             .y = found.peak.sigma_1,
                             .colour = colour,
                             .line = render::Line::none,
-                            .marker = markers[index++ % markers.size()],
-                            .y_error = {}});
+                            .marker = render::marker_style(index++)});
     const double high = std::ranges::max(found.peak.sigma_3);
     const auto line = [&](render::Line kind, const auto& at) {
       render::Series series = line_of(0, high, at);
@@ -134,17 +187,23 @@ FigureContent mineral_envelopes(const StudyResult& study) {
       said.push_back(fmt::format("{} m {}", mineral, estimate_text(found.peak_fit->m, 3)));
     }
     const Published theirs = published_of(study, mineral);
-    if (high > 0) line(render::Line::dot, [&](double x) { return analysis::hoek_brown(x, theirs.ucs, theirs.m, 1); });
+    if (high > 0) {
+      const std::size_t before = chart.series.size();
+      line(render::Line::dash, [&](double x) { return analysis::hoek_brown(x, theirs.ucs, theirs.m, 1); });
+      if (!explained && chart.series.size() > before) {
+        chart.series.back().label = "published (Table 3)";
+        explained = true;
+      }
+    }
   }
   if (chart.series.empty()) return content;
   chart.legend = render::Chart::Legend::below;
-  chart.width = 640;
-  chart.height = 440;
+  chart.height = 380;
   const std::string fits =
       said.empty() ? "Too few pressures for a fit." : "Fitted with σc = UCS: " + joined(said, "; ") + ".";
   content.panels.push_back({.id = "",
                             .caption = "Peak stresses of the minerals; solid: our fits with σc = UCS and s = 1; "
-                                       "dotted: envelopes with UCS and m of Table 3.",
+                                       "dashed: envelopes with UCS and m of Table 3.",
                             .alt = fits,
                             .content = chart});
   content.finding = fits;

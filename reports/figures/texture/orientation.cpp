@@ -88,8 +88,7 @@ render::Chart angle_chart(const std::vector<SeriesCase>& cases) {
   }
   if (!random.x.empty()) chart.series.push_back(random);
   chart.legend = render::Chart::Legend::below;
-  chart.width = 440;
-  chart.height = 380;
+  chart.height = 340;
   return chart;
 }
 
@@ -163,8 +162,7 @@ FigureContent crack_orientation(const StudyResult& study) {
     chart.left.high = 90;
     chart.series = {angles, bands};
     chart.legend = render::Chart::Legend::below;
-    chart.width = 440;
-    chart.height = 380;
+    chart.height = 340;
     content.panels.push_back(
         {.id = "band",
          .caption = fmt::format("Mean angle of the cracks, and angle of the band, {:g} mean particle diameters thick, "

@@ -1,6 +1,9 @@
 #include "reports/figures/texture/parts.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -43,6 +46,20 @@ std::size_t class_of(const Cracks& cracks, std::size_t i) {
   const auto found = std::ranges::find_if(
       classes, [&](const CrackClass& c) { return c.place == cracks.place[i] && c.mode == cracks.mode[i]; });
   return static_cast<std::size_t>(found - classes.begin());
+}
+
+// By place in the scenario's list: light and dark in turn, muted, so that cracks show. The first four are those of the
+// paper's granite, whose list is plagioclase, alkali feldspar, quartz, biotite.
+constexpr std::array<render::Colour, 6> mineral_palette{{{0.737, 0.604, 0.169},    // dark yellow
+                                                         {0.965, 0.914, 0.663},    // light yellow
+                                                         {0.737, 0.749, 0.773},    // light grey
+                                                         {0.227, 0.255, 0.306},    // dark grey
+                                                         {0.349, 0.525, 0.498},    // grey green
+                                                         {0.573, 0.290, 0.298}}};  // dull red
+
+render::Colour from_text(const std::string& text) {
+  const auto part = [&](std::size_t at) { return std::stoi(text.substr(at, 2), nullptr, 16) / 255.0; };
+  return {part(1), part(3), part(5)};
 }
 
 std::vector<LegendEntry> crack_legend(const std::array<std::size_t, 4>& numbers) {
@@ -109,10 +126,10 @@ const dem::Record* first_specimen(const StudyResult& study) {
 
 const std::array<CrackClass, 4>& crack_classes() {
   static const std::array<CrackClass, 4> classes{
-      {{"inter_tension", "inter-grain tension", 1, 0, {0.835, 0.369, 0.0}, quantity::cracks_inter_tension},
+      {{"inter_tension", "inter-grain tension", 1, 0, {0.741, 0.263, 0.0}, quantity::cracks_inter_tension},
        {"inter_shear", "inter-grain shear", 1, 1, {0.0, 0.0, 0.0}, quantity::cracks_inter_shear},
-       {"intra_tension", "intra-grain tension", 0, 0, {0.0, 0.353, 0.612}, quantity::cracks_intra_tension},
-       {"intra_shear", "intra-grain shear", 0, 1, {0.337, 0.706, 0.914}, quantity::cracks_intra_shear}}};
+       {"intra_tension", "intra-grain tension", 0, 0, {0.0, 0.302, 0.612}, quantity::cracks_intra_tension},
+       {"intra_shear", "intra-grain shear", 0, 1, {0.247, 0.592, 0.871}, quantity::cracks_intra_shear}}};
   return classes;
 }
 
@@ -123,14 +140,21 @@ std::vector<std::string> minerals_of(const dem::Record& record) {
   return names;
 }
 
-render::Colour mineral_colour(std::string_view mineral) {
-  if (mineral == "alkali feldspar") return {0.965, 0.914, 0.663};
-  if (mineral == "plagioclase") return {0.792, 0.647, 0.176};
-  if (mineral == "quartz") return {0.816, 0.824, 0.835};
-  if (mineral == "biotite") return {0.302, 0.306, 0.322};
-  std::size_t sum = 0;
-  for (const char c : mineral) sum = 31 * sum + static_cast<unsigned char>(c);
-  return render::palette(sum);
+render::Colour mineral_colour(const StudyResult& study, std::string_view mineral) {
+  if (!study.scenario || !study.scenario->declares("mineral[].name")) return mineral_palette.front();
+  const dem::Scenario& s = *study.scenario;
+  // Results have signs of a name as "_", and names of groups are shown with blanks for them.
+  const auto plain = [](std::string text) {
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char c) { return std::isalnum(c) != 0 ? std::tolower(c) : ' '; });
+    return text;
+  };
+  for (std::size_t place = 0; place < s.count("mineral"); ++place) {
+    if (plain(s.text(fmt::format("mineral[{}].name", place))) != plain(std::string(mineral))) continue;
+    const std::string& chosen = s.text(fmt::format("mineral[{}].colour", place));
+    return chosen.empty() ? mineral_palette[place % mineral_palette.size()] : from_text(chosen);
+  }
+  return mineral_palette.front();
 }
 
 Size size_of(const dem::Record& record) {
@@ -154,37 +178,38 @@ Size size_of(const dem::Record& record) {
   return size;
 }
 
-render::Spheres particles_by_mineral(const dem::Record& record) {
+render::Spheres particles_by_mineral(const StudyResult& study, const dem::Record& record) {
   const dem::Table& particles = record.table("particles");
   const auto position = particles.real("position");
   const auto radius = particles.real("radius");
   const auto mineral = particles.integer("mineral");
   const auto grain = particles.integer("grain");
   std::vector<render::Colour> colours;
-  for (const std::string& name : minerals_of(record)) colours.push_back(mineral_colour(name));
+  for (const std::string& name : minerals_of(record)) colours.push_back(mineral_colour(study, name));
   render::Spheres spheres;
   for (std::size_t i = 0; i < radius.size(); ++i) {
     spheres.centre.push_back({position[3 * i], position[3 * i + 1], position[3 * i + 2]});
     spheres.radius.push_back(radius[i]);
     const auto index = static_cast<std::size_t>(mineral[i]);
-    const render::Colour colour = index < colours.size() ? colours[index] : render::palette(index);
+    const render::Colour colour = index < colours.size() ? colours[index] : mineral_palette.front();
     spheres.colour.push_back(toned(colour, tone(grain[i])));
   }
   return spheres;
 }
 
-render::Scene specimen_scene(const dem::Record& record, int width) {
+render::Scene specimen_scene(const StudyResult& study, const dem::Record& record, int width) {
   const Size size = size_of(record);
   render::Scene scene;
-  scene.spheres.push_back(particles_by_mineral(record));
+  scene.axes = true;
+  scene.spheres.push_back(particles_by_mineral(study, record));
   scene.camera.frame = frame_of(size);
   scene.width = width;
   scene.height = static_cast<int>(std::lround(width * std::max(0.5, size.height / size.diameter)));
   return scene;
 }
 
-render::Scene section_scene(const dem::Record& record, int width) {
-  render::Scene scene = specimen_scene(record, width);
+render::Scene section_scene(const StudyResult& study, const dem::Record& record, int width) {
+  render::Scene scene = specimen_scene(study, record, width);
   scene.cuts.push_back({{0, 0, 0}, {0, 1, 0}});
   return scene;
 }
@@ -223,7 +248,9 @@ std::vector<render::Polyline> crack_traces(const dem::Record& record, std::size_
     const double z = cracks.position[3 * i + 2];
     traces.push_back({{{x - half * along_x, 0, z - half * along_z}, {x + half * along_x, 0, z + half * along_z}},
                       crack_classes()[k].colour,
-                      width});
+                      width,
+                      render::Line::solid,
+                      true});
   }
   return traces;
 }
@@ -243,6 +270,7 @@ Picture transparent_cracks(const dem::Record& record, std::size_t count, const s
   const Size size = size_of(record);
   const double half = 0.5 * size.diameter;
   render::Scene scene;
+  scene.axes = true;
   scene.discs = crack_discs(record, count, scale);
   scene.outline = {
       render::Outline::Shape::cylinder, {-half, -half, size.z_low}, {half, half, size.z_low + size.height}};
@@ -262,10 +290,112 @@ double legible_disc_scale(const dem::Record& record) {
   return std::clamp(0.1 * std::round(10 * scale), 0.2, 1.0);
 }
 
-Picture section_cracks(const dem::Record& record, std::size_t count, const std::string& label, int width) {
-  render::Scene scene = section_scene(record, width);
-  scene.lines = crack_traces(record, count, std::max(1.2, width / 260.0));
-  return {.scene = std::move(scene), .label = label, .legend = crack_legend(numbers_in_section(record, count))};
+Picture section_cracks(const StudyResult& study, const dem::Record& record, std::size_t count, const std::string& label,
+                       int width) {
+  render::Scene scene = section_scene(study, record, width);
+  scene.lines = crack_traces(record, count, 1.2);
+  Picture picture{.scene = std::move(scene), .label = label, .legend = crack_legend(numbers_in_section(record, count))};
+  for (LegendEntry& mineral : mineral_legend(study, record)) picture.legend.push_back(std::move(mineral));
+  return picture;
+}
+
+double CrackDensity::largest() const { return value.empty() ? 0 : std::ranges::max(value); }
+
+CrackDensity crack_density(const dem::Record& record, std::size_t count) {
+  const Size size = size_of(record);
+  const Cracks cracks = cracks_of(record, count);
+  const dem::Table& particles = record.table("particles");
+  const auto position = particles.real("position");
+  const auto radius = particles.real("radius");
+  const auto grains = record.table("grains").real("radius");
+  CrackDensity density;
+  if (grains.empty() || radius.empty()) return density;
+  const double width = std::accumulate(grains.begin(), grains.end(), 0.0) / static_cast<double>(grains.size());
+  double solid = 0;  // volume of the particles; over that of the specimen it is their share everywhere
+  for (const double r : radius) solid += 4.0 / 3 * std::numbers::pi * r * r * r;
+  const double whole = 0.25 * std::numbers::pi * size.diameter * size.diameter * size.height;
+
+  constexpr int across = 56;
+  density.spacing = size.diameter / across;
+  const int up = static_cast<int>(std::ceil(size.height / density.spacing));
+  const double reach = 3 * width;
+  std::vector<double> area(static_cast<std::size_t>(across * up), 0.0), volume = area;
+  const auto place = [&](int i, int k) {
+    return render::Point{-0.5 * size.diameter + (i + 0.5) * density.spacing, 0,
+                         size.z_low + (k + 0.5) * density.spacing};
+  };
+  const auto spread = [&](std::vector<double>& sums, double x, double y, double z, double weight) {
+    if (std::abs(y) > reach) return;
+    const auto low = [&](double v) { return std::max(0, static_cast<int>(std::floor((v - reach) / density.spacing))); };
+    const auto high = [&](double v, int end) {
+      return std::min(end - 1, static_cast<int>(std::ceil((v + reach) / density.spacing)));
+    };
+    const double from_left = x + 0.5 * size.diameter, from_below = z - size.z_low;
+    for (int k = low(from_below); k <= high(from_below, up); ++k) {
+      for (int i = low(from_left); i <= high(from_left, across); ++i) {
+        const render::Point p = place(i, k);
+        const double square = (p[0] - x) * (p[0] - x) + y * y + (p[2] - z) * (p[2] - z);
+        if (square > reach * reach) continue;
+        sums[static_cast<std::size_t>(k * across + i)] += weight * std::exp(-0.5 * square / (width * width));
+      }
+    }
+  };
+  for (std::size_t i = 0; i < cracks.count; ++i) {
+    spread(area, cracks.position[3 * i], cracks.position[3 * i + 1], cracks.position[3 * i + 2], cracks.area[i]);
+  }
+  for (std::size_t i = 0; i < radius.size(); ++i) {
+    const double r = radius[i];
+    spread(volume, position[3 * i], position[3 * i + 1], position[3 * i + 2],
+           4.0 / 3 * std::numbers::pi * r * r * r * whole / solid);
+  }
+  for (int k = 0; k < up; ++k) {
+    for (int i = 0; i < across; ++i) {
+      const auto at = static_cast<std::size_t>(k * across + i);
+      if (!(volume[at] > 0)) continue;
+      density.at.push_back(place(i, k));
+      density.value.push_back(1e-3 * area[at] / volume[at]);
+    }
+  }
+  return density;
+}
+
+namespace {
+
+// From white over orange to nearly black: lightness falls evenly, so that grey print says the same.
+render::Colour density_colour(double share) {
+  constexpr std::array<render::Colour, 4> stops{
+      {{1.0, 1.0, 0.94}, {0.98, 0.72, 0.35}, {0.78, 0.26, 0.12}, {0.22, 0.02, 0.10}}};
+  const double at = std::clamp(share, 0.0, 1.0) * static_cast<double>(stops.size() - 1);
+  const auto low = std::min(static_cast<std::size_t>(at), stops.size() - 2);
+  const double part = at - static_cast<double>(low);
+  const auto mix = [&](double render::Colour::*c) {
+    return stops[low].*c + part * (stops[low + 1].*c - stops[low].*c);
+  };
+  return {mix(&render::Colour::red), mix(&render::Colour::green), mix(&render::Colour::blue)};
+}
+
+}  // namespace
+
+Picture density_picture(const dem::Record& record, const CrackDensity& density, double high, const std::string& label,
+                        int width) {
+  const Size size = size_of(record);
+  render::Spheres spheres;
+  spheres.cut_edges = false;
+  for (std::size_t i = 0; i < density.at.size(); ++i) {
+    spheres.centre.push_back(density.at[i]);
+    spheres.radius.push_back(0.74 * density.spacing);  // no gap between four
+    spheres.colour.push_back(density_colour(high > 0 ? density.value[i] / high : 0));
+  }
+  render::Scene scene;
+  scene.spheres.push_back(std::move(spheres));
+  scene.cuts.push_back({{0, 0, 0}, {0, 1, 0}});
+  scene.camera.frame = frame_of(size);
+  scene.axes = true;
+  scene.bar = render::ColourBar{.title = "mm² per mm³", .low = 0, .high = high, .colours = {}};
+  for (int k = 0; k < 64; ++k) scene.bar->colours.push_back(density_colour((k + 0.5) / 64));
+  scene.width = width;
+  scene.height = static_cast<int>(std::lround(width * std::max(0.5, size.height / size.diameter)));
+  return {.scene = std::move(scene), .label = label, .legend = {}};
 }
 
 std::string crack_words(const std::array<std::size_t, 4>& numbers) {
@@ -276,9 +406,9 @@ std::string crack_words(const std::array<std::size_t, 4>& numbers) {
   return listed(parts);
 }
 
-std::vector<LegendEntry> mineral_legend(const dem::Record& record) {
+std::vector<LegendEntry> mineral_legend(const StudyResult& study, const dem::Record& record) {
   std::vector<LegendEntry> legend;
-  for (const std::string& name : minerals_of(record)) legend.push_back({mineral_colour(name), name});
+  for (const std::string& name : minerals_of(record)) legend.push_back({mineral_colour(study, name), name});
   return legend;
 }
 

@@ -16,8 +16,8 @@ const dem::Parameter& swept_axis(const StudyResult& study);
 std::vector<SeriesCase> swept(const StudyResult& study, std::string_view test);
 /// The first specimen of a scenario that makes them without loading; nullptr when there is none.
 const dem::Record* first_specimen(const StudyResult& study);
-/// The four classes of cracks, in the order of every legend. Their colours stay apart for colour-blind readers (hues of
-/// Okabe and Ito 2008) and in grey print (luminance 0.47, 0.00, 0.28, 0.62).
+/// The four classes of cracks, in the order of every legend. Their colours stay apart for every reader and in grey print
+/// (lightness 45, 0, 33, 60), from each other and from those of the minerals.
 struct CrackClass {
   std::string_view id, name;
   int place, mode;  ///< as in the table cracks
@@ -26,9 +26,11 @@ struct CrackClass {
 };
 const std::array<CrackClass, 4>& crack_classes();
 
-/// Names of the minerals by index, and the colours that the paper gives them; others take the palette's.
+/// Names of the minerals of a record by index.
 std::vector<std::string> minerals_of(const dem::Record& record);
-render::Colour mineral_colour(std::string_view mineral);
+/// Its colour: the scenario's mineral[].colour, else by its place in the scenario's list: for Lac du Bonnet granite those
+/// of the paper.
+render::Colour mineral_colour(const StudyResult& study, std::string_view mineral);
 
 struct Size {
   double diameter = 0, height = 0;  ///< m
@@ -41,12 +43,12 @@ std::array<render::Point, 2> frame_of(const Size& size);
 double mean_diameter(const dem::Record& record);  ///< of the particles, m
 
 /// Particles as spheres, a tone a grain so that grains of one mineral can be told apart.
-render::Spheres particles_by_mineral(const dem::Record& record);
+render::Spheres particles_by_mineral(const StudyResult& study, const dem::Record& record);
 
 /// A scene of the whole specimen, seen along y, with the frame fixed to its size so that cases share one scale.
-render::Scene specimen_scene(const dem::Record& record, int width);
+render::Scene specimen_scene(const StudyResult& study, const dem::Record& record, int width);
 /// The same, cut by the plane y = 0 of its axis.
-render::Scene section_scene(const dem::Record& record, int width);
+render::Scene section_scene(const StudyResult& study, const dem::Record& record, int width);
 
 /// The first `count` cracks of a record as discs `scale` times their size, or as traces on the
 /// plane y = 0: cracks within half a mean particle diameter of it.
@@ -60,13 +62,27 @@ Picture transparent_cracks(const dem::Record& record, std::size_t count, const s
                            double scale);
 /// How large to draw the discs, 0.2 to 1: at full size the nearest of some thousand cracks would hide all others.
 double legible_disc_scale(const dem::Record& record);
-Picture section_cracks(const dem::Record& record, std::size_t count, const std::string& label, int width);
+Picture section_cracks(const StudyResult& study, const dem::Record& record, std::size_t count, const std::string& label,
+                       int width);
+
+/// Crack area per volume (1/mm) on the plane y = 0, each crack spread over a grain: a Gaussian with the mean radius of the
+/// grains, over the volume that the same Gaussian finds in the specimen.
+struct CrackDensity {
+  std::vector<render::Point> at;
+  std::vector<double> value;
+  double spacing = 0;  ///< of the points, m
+  [[nodiscard]] double largest() const;
+};
+CrackDensity crack_density(const dem::Record& record, std::size_t count);
+/// Its picture, colours from zero to `high`.
+Picture density_picture(const dem::Record& record, const CrackDensity& density, double high, const std::string& label,
+                        int width);
 /// "1 204 inter tension, 12 inter shear, ..."
 std::string crack_words(const std::array<std::size_t, 4>& numbers);
 
 /// What a case reads otherwise than its scenario does: "seeds × 1, growth by most contacts"; "" for nothing.
 std::string reading_of(const dem::Record& record, const StudyResult& study);
 
-std::vector<LegendEntry> mineral_legend(const dem::Record& record);
+std::vector<LegendEntry> mineral_legend(const StudyResult& study, const dem::Record& record);
 
 }  // namespace reports::texture

@@ -14,9 +14,8 @@
 namespace reports::texture {
 namespace {
 
-constexpr int half_width = 440;  // two beside each other on the page
-constexpr int half_height = 310;
-constexpr int curves_height = 380;  // with a legend below
+constexpr int bars_height = 300;
+constexpr int curves_height = 340;  // with a legend below
 
 const render::Colour grey{0.35, 0.35, 0.35};
 
@@ -47,8 +46,8 @@ std::vector<Level> levels_of(const dem::Record& record) {
     const double strain = std::isfinite(stress) ? strain_at(history, stress) : stress;
     if (std::isfinite(strain)) levels.push_back({symbol, stress, strain});
   };
-  add("σci", quantity::initiation_by_stiffness);
-  add("σcd", quantity::crack_damage);
+  add("σ_{ci}", quantity::initiation_by_stiffness);
+  add("σ_{cd}", quantity::crack_damage);
   const double ucs = record.value_or_nan(quantity::compressive_strength);
   if (std::isfinite(ucs)) levels.push_back({"peak", ucs, 100 * record.value_or_nan(quantity::peak_strain)});
   if (!levels.empty() && !std::isfinite(levels.back().strain)) levels.pop_back();
@@ -75,14 +74,12 @@ render::Chart stress_and_strains(const StudyResult& study, const dem::Record& re
   lateral.line = render::Line::dash_dot;
   lateral.side = render::Side::right;
   chart.series = {stress, volume, lateral};
-  for (const auto& [id, name] : {std::pair{"stress_at_0_1_percent_ar_1", "published σci"},
-                                 {"crack_damage", "published σcd"},
-                                 {"ucs_ar_1", "published peak"}}) {
-    const double level = study.published_value(id);
-    if (!std::isfinite(level)) continue;
-    chart.marks.push_back(
-        {.kind = render::Mark::Kind::horizontal, .x = 0, .y = level, .label = name, .colour = {0.6, 0.6, 0.6}});
-  }
+  std::vector<PublishedPoint> published;
+  for (const auto& [stress_id, strain_id] :
+       {std::pair{"stress_at_0_1_percent_ar_1", "crack_initiation_strain"}, {"crack_damage", "crack_damage_strain"}})
+    published.push_back({study.published_value(strain_id), study.published_value(stress_id)});
+  add_published(chart, published, "published σ_{ci} and σ_{cd}");
+  add_published(chart, render::Mark::Kind::horizontal, study.published_value("ucs_ar_1"), "published peak");
   for (const Level& one : levels_of(record)) {
     chart.marks.push_back({.kind = render::Mark::Kind::point,
                            .x = one.strain,
@@ -92,12 +89,11 @@ render::Chart stress_and_strains(const StudyResult& study, const dem::Record& re
     chart.marks.push_back(moment(one.strain, ""));
   }
   chart.legend = render::Chart::Legend::below;
-  chart.width = 640;
-  chart.height = 360;
+  chart.height = 340;
   return chart;
 }
 
-render::Chart stiffness_and_cracks(const dem::Record& record) {
+render::Chart stiffness_chart(const dem::Record& record) {
   const dem::Table& history = record.table("history");
   render::Chart chart;
   chart.x.title = "Axial strain (%)";
@@ -106,14 +102,22 @@ render::Chart stiffness_and_cracks(const dem::Record& record) {
   // At first load the strain is near zero and the ratio senseless: the axis is made for what comes after.
   const double modulus = record.value_or_nan(quantity::young_modulus);
   if (modulus > 0) chart.left.high = 1.5 * modulus;
-  chart.right.title = "Cracks so far";
-  chart.right.logarithmic = true;
   render::Series stiffness = curve(history, {"axial_strain", "axial_stiffness", 100, 1e-9});
-  stiffness.label = "axial stiffness";
-  stiffness.colour = grey;
-  stiffness.width = 2.2;
+  stiffness.colour = render::palette(0);
   chart.series.push_back(stiffness);
-  constexpr std::array lines{render::Line::solid, render::Line::dash, render::Line::dash_dot, render::Line::dot};
+  for (const Level& one : levels_of(record)) chart.marks.push_back(moment(one.strain, one.symbol));
+  chart.legend = render::Chart::Legend::none;
+  chart.height = curves_height;
+  return chart;
+}
+
+render::Chart cracks_chart(const dem::Record& record) {
+  const dem::Table& history = record.table("history");
+  render::Chart chart;
+  chart.x.title = "Axial strain (%)";
+  chart.x.low = 0;
+  chart.left.title = "Cracks so far";
+  chart.left.logarithmic = true;
   for (std::size_t k = 0; k < crack_classes().size(); ++k) {
     const CrackClass& one = crack_classes()[k];
     render::Series cracks = curve(history, {"axial_strain", "cracks_" + std::string(one.id), 100, 1});
@@ -127,39 +131,44 @@ render::Chart stiffness_and_cracks(const dem::Record& record) {
       shown.y.push_back(cracks.y[i]);
     }
     if (shown.x.empty()) continue;
-    shown.label = std::string(one.name) + " (right)";
+    shown.label = one.name;
     shown.colour = one.colour;
-    shown.line = lines[k];
-    shown.side = render::Side::right;
+    shown.line = render::line_style(k);
     chart.series.push_back(shown);
   }
   for (const Level& one : levels_of(record)) chart.marks.push_back(moment(one.strain, one.symbol));
   chart.legend = render::Chart::Legend::below;
-  chart.width = 640;
-  chart.height = 350;
+  chart.height = curves_height;
   return chart;
 }
 
+// Lateral strains are negative: both kinds stand in one chart, a line style a case.
 render::Chart compression_curves(const std::vector<SeriesCase>& cases) {
   render::Chart chart;
   chart.x.title = "Strain (%): lateral < 0 < axial";
   chart.left.title = "Axial stress (MPa)";
   chart.left.low = 0;
-  constexpr std::array kinds{std::pair{"axial_strain", "axial"}, std::pair{"lateral_strain", "lateral"},
-                             std::pair{"volumetric_strain", "volumetric"}};
-  constexpr std::array lines{render::Line::solid, render::Line::dash, render::Line::dot};
-  for (const SeriesCase& item : cases) {
-    for (std::size_t k = 0; k < kinds.size(); ++k) {
-      render::Series series = curve(item.record->table("history"), {kinds[k].first, "axial_stress", 100, 1e-6});
-      series.label = item.label + " " + kinds[k].second;
+  for (const char* kind : {"axial_strain", "lateral_strain"}) {
+    for (const SeriesCase& item : cases) {
+      render::Series series = curve(item.record->table("history"), {kind, "axial_stress", 100, 1e-6});
+      if (std::string_view(kind) == "axial_strain") series.label = item.label;
       series.colour = item.colour;
-      series.line = lines[k];
-      series.width = k == 0 ? 1.8 : 1.4;
+      series.line = item.line;
       chart.series.push_back(series);
     }
   }
   chart.legend = render::Chart::Legend::below;
-  chart.width = half_width;
+  chart.height = curves_height;
+  return chart;
+}
+
+render::Chart volume_curves(const std::vector<SeriesCase>& cases) {
+  render::Chart chart;
+  chart.x.title = "Volumetric strain (%), contraction positive";
+  chart.left.title = "Axial stress (MPa)";
+  chart.left.low = 0;
+  add_curves(chart, cases, {"volumetric_strain", "axial_stress", 100, 1e-6});
+  chart.legend = render::Chart::Legend::below;
   chart.height = curves_height;
   return chart;
 }
@@ -171,13 +180,13 @@ render::Chart tension_curves(const std::vector<SeriesCase>& cases) {
   chart.left.low = 0;
   add_curves(chart, cases, {"axial_strain", "axial_stress", 100, 1e-6});
   chart.legend = render::Chart::Legend::below;
-  chart.width = half_width;
   chart.height = curves_height;
   return chart;
 }
 
 struct Strength {
   std::string label;
+  double at = 0;  ///< place on the swept axis
   Spread ucs, ts;
   double ratio = 0, ratio_deviation = 0;
 };
@@ -191,63 +200,83 @@ std::vector<Strength> strengths(const std::vector<SeriesCase>& compression, cons
     const Spread ts = analysis::spread(*pulled, shown(quantity::tensile_strength));
     if (!std::isfinite(ucs.mean) || !(ts.mean > 0)) continue;
     const double ratio = ucs.mean / ts.mean;
-    found.push_back({item.label, ucs, ts, ratio, ratio * std::hypot(ucs.deviation / ucs.mean, ts.deviation / ts.mean)});
+    found.push_back(
+        {item.label, item.value, ucs, ts, ratio, ratio * std::hypot(ucs.deviation / ucs.mean, ts.deviation / ts.mean)});
   }
   return found;
 }
 
-// Bars for a strength, and the ratio as a line on the right axis (only once).
-render::Chart strength_bars(const std::vector<Strength>& found, Spread Strength::*value, const std::string& title,
-                            std::size_t colour, bool ratio) {
+// What the paper states of a strength at a place of the swept axis; NaN where it states nothing.
+double published_at(const StudyResult& study, const dem::Parameter& axis, std::string_view strength, double at) {
+  return study.published_value(fmt::format("{}_{}_{:g}", strength, axis.id == "dip" ? "dip" : "ar", at));
+}
+
+render::Chart strength_bars(const StudyResult& study, const std::vector<Strength>& found, Spread Strength::*value,
+                            const std::string& title, std::string_view published_id, std::size_t colour, int digits) {
   render::Chart chart;
   render::Bars bars;
-  bars.print_values = true;
-  bars.value_format = ratio ? "{:.0f}" : "{:.1f}";
-  bars.labels = {title};
+  bars.value_format = fmt::format("{{:.{}f}}", digits);
+  bars.labels = {"this study"};
   bars.colours = {render::palette(colour)};
   bars.values.emplace_back();
   bars.errors.emplace_back();
-  render::Series line{.label = "UCS/TS (right)",
-                      .x = {},
-                      .y = {},
-                      .colour = {0, 0, 0},
-                      .marker = render::Marker::diamond,
-                      .side = render::Side::right,
-                      .y_error = {}};
-  double highest = 0;
+  std::vector<double> published;
   bool repeated = false;
+  const dem::Parameter& axis = swept_axis(study);
   for (const Strength& one : found) {
     const Spread& spread = one.*value;
-    line.x.push_back(static_cast<double>(bars.categories.size()));
-    line.y.push_back(one.ratio);
-    line.y_error.push_back(one.ratio_deviation);
     bars.categories.push_back(one.label);
     bars.values[0].push_back(spread.mean);
     bars.errors[0].push_back(spread.deviation);
-    highest = std::max(highest, spread.mean + spread.deviation);
     repeated = repeated || spread.count > 1;
+    published.push_back(published_at(study, axis, published_id, one.at));
   }
-  if (!repeated) {
-    bars.errors.clear();
-    line.y_error.clear();
-  }
-  bars.print_values = !repeated;
+  if (!repeated) bars.errors.clear();
+  add_published(bars, published);
+  bars.print_values = true;
   chart.bars = bars;
   chart.left.title = title + " (MPa)";
   chart.left.low = 0;
-  chart.left.high = 1.35 * highest;
-  if (ratio) {
-    const auto [low, high] = std::ranges::minmax(line.y);
-    chart.right.title = "UCS/TS";
-    // Across the middle of the bars: at their tops it would hide the values printed there.
-    const double span = std::max(8.0, 2.5 * (high - low)), middle = 0.5 * (low + high);
-    chart.right.low = std::max(0.0, std::floor(middle - 0.45 * span));
-    chart.right.high = std::ceil(middle + 0.55 * span);
-    chart.series.push_back(line);
+  chart.legend = render::Chart::Legend::below;
+  chart.height = bars_height;
+  return chart;
+}
+
+render::Chart ratio_chart(const StudyResult& study, const std::vector<Strength>& found) {
+  const dem::Parameter& axis = swept_axis(study);
+  render::Chart chart;
+  chart.x.title = axis_title(axis);
+  chart.left.title = "UCS/TS";
+  render::Series ours{
+      .label = "this study", .x = {}, .y = {}, .colour = render::palette(3), .marker = render::Marker::circle};
+  std::vector<PublishedPoint> published;
+  bool repeated = false;
+  for (const Strength& one : found) {
+    ours.x.push_back(one.at);
+    ours.y.push_back(one.ratio);
+    ours.y_error.push_back(one.ratio_deviation);
+    repeated = repeated || one.ucs.count > 1 || one.ts.count > 1;
+    const double stated = published_at(study, axis, "ucs_ts_ratio", one.at);
+    const double quotient =
+        published_at(study, axis, "ucs", one.at) / published_at(study, axis, "tensile_strength", one.at);
+    published.push_back({one.at, std::isfinite(stated) ? stated : quotient});
   }
-  chart.legend = render::Chart::Legend::top_left;
-  chart.width = found.size() > 4 ? 640 : half_width;
-  chart.height = half_height;
+  if (!repeated) ours.y_error.clear();
+  chart.series.push_back(ours);
+  add_published(chart, published, "published");
+  // A ratio has no bars from zero; a few percent of it should not look like a cliff either.
+  double low = 1e300, high = 0;
+  for (const render::Series& s : chart.series)
+    for (std::size_t i = 0; i < s.y.size(); ++i) {
+      const double error = i < s.y_error.size() ? s.y_error[i] : 0;
+      low = std::min(low, s.y[i] - error);
+      high = std::max(high, s.y[i] + error);
+    }
+  const double room = std::max(0.25 * (high - low), 0.06 * high);
+  chart.left.low = std::floor(low - room);
+  chart.left.high = std::ceil(high + room);
+  chart.legend = render::Chart::Legend::below;
+  chart.height = bars_height;
   return chart;
 }
 
@@ -266,17 +295,20 @@ std::string spread_note(const std::vector<Strength>& found) {
              : "";
 }
 
-void add_strengths(FigureContent& content, const std::vector<Strength>& found) {
+void add_strengths(FigureContent& content, const StudyResult& study, const std::vector<Strength>& found) {
   if (found.empty()) return;
-  content.panels.push_back(
-      {.id = "strength",
-       .caption = "Uniaxial compressive strength and its ratio to the tensile strength." + spread_note(found),
-       .alt = strengths_alt(found),
-       .content = strength_bars(found, &Strength::ucs, "UCS", 0, true)});
+  content.panels.push_back({.id = "strength",
+                            .caption = "Uniaxial compressive strength." + spread_note(found),
+                            .alt = strengths_alt(found),
+                            .content = strength_bars(study, found, &Strength::ucs, "UCS", "ucs", 0, 0)});
   content.panels.push_back({.id = "tensile_strength",
                             .caption = "Tensile strength." + spread_note(found),
                             .alt = strengths_alt(found),
-                            .content = strength_bars(found, &Strength::ts, "TS", 2, false)});
+                            .content = strength_bars(study, found, &Strength::ts, "TS", "tensile_strength", 2, 1)});
+  content.panels.push_back({.id = "strength_ratio",
+                            .caption = "Ratio of the two." + spread_note(found),
+                            .alt = strengths_alt(found),
+                            .content = ratio_chart(study, found)});
 }
 
 std::string strengths_found(const std::vector<SeriesCase>& compression, const std::vector<SeriesCase>& tension,
@@ -320,9 +352,8 @@ render::Chart share_chart(const std::string& title, const std::vector<SeriesCase
   chart.left.title = title;
   chart.left.low = 0;
   chart.left.high = 100;
-  chart.legend = render::Chart::Legend::outside_right;
-  chart.width = cases.size() > 4 ? 640 : half_width;
-  chart.height = 380;
+  chart.legend = render::Chart::Legend::below;
+  chart.height = 360;
   return chart;
 }
 
@@ -340,27 +371,39 @@ std::vector<double> over_cases(const std::vector<SeriesCase>& cases, const dem::
   return values;
 }
 
-render::Chart mineral_chart(const std::vector<SeriesCase>& cases) {
+render::Chart mineral_chart(const StudyResult& study, const std::vector<SeriesCase>& cases) {
   render::Chart chart = share_chart("Share of the volume (%)", cases);
   for (const std::string& name : members_of(cases, quantity::mineral_share)) {
-    add_stack(chart, words(name), mineral_colour(words(name)), over_cases(cases, quantity::mineral_share, name));
+    add_stack(chart, words(name), mineral_colour(study, words(name)), over_cases(cases, quantity::mineral_share, name));
   }
   return chart;
 }
 
-// Within grains by mineral; between grains all together: the pairs are in the table.
-render::Chart contact_chart(const std::vector<SeriesCase>& cases) {
+// Between grains all together, from below, where the published share can be read: the pairs are in the table; within grains
+// by mineral.
+render::Chart contact_chart(const StudyResult& study, const std::vector<SeriesCase>& cases) {
   render::Chart chart = share_chart("Share of contacts (%)", cases);
   std::vector<double> between(cases.size(), 0.0);
-  for (const std::string& name : members_of(cases, quantity::contact_share)) {
+  const auto names = members_of(cases, quantity::contact_share);
+  for (const std::string& name : names) {
+    if (name.starts_with("intra_")) continue;
     const auto values = over_cases(cases, quantity::contact_share, name);
-    if (name.starts_with("intra_")) {
-      add_stack(chart, "intra-grain, " + words(name.substr(6)), mineral_colour(words(name.substr(6))), values);
-    } else {
-      for (std::size_t i = 0; i < values.size(); ++i) between[i] += values[i];
-    }
+    for (std::size_t i = 0; i < values.size(); ++i) between[i] += values[i];
   }
-  add_stack(chart, "inter-grain", crack_classes()[0].colour, between);
+  add_stack(chart, "inter-grain", {1, 1, 1}, between);
+  for (const std::string& name : names) {
+    if (!name.starts_with("intra_")) continue;
+    const std::string mineral = words(name.substr(6));
+    add_stack(chart, "intra-grain, " + mineral, mineral_colour(study, mineral),
+              over_cases(cases, quantity::contact_share, name));
+  }
+  std::vector<PublishedPoint> published;
+  if (swept_axis(study).id == "aspect_ratio") {
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      published.push_back(
+          {static_cast<double>(i), study.published_value(fmt::format("inter_grain_share_ar_{:g}", cases[i].value))});
+  }
+  add_published(chart, published, "inter-grain, published");
   return chart;
 }
 
@@ -401,12 +444,18 @@ FigureContent progressive_failure(const StudyResult& study) {
        .caption =
            "Axial stress, volumetric and lateral strain (contraction positive), with our and the published levels.",
        .alt = "Stress, volumetric and lateral strain against axial strain: " + found + ".",
-       .content = stress_and_strains(study, base)});
+       .content = stress_and_strains(study, base),
+       .per_row = 1});
   content.panels.push_back({.id = "stiffness",
-                            .caption = "Axial stiffness (Eq. 9) and cracks so far, by class.",
-                            .alt = "Axial stiffness and numbers of cracks against axial strain; " +
+                            .caption = "Axial stiffness (Eq. 9).",
+                            .alt = "Axial stiffness against axial strain, from " +
+                                   number(base.value_or_nan(quantity::young_modulus) * 1e-9, 3) + " GPa on.",
+                            .content = stiffness_chart(base)});
+  content.panels.push_back({.id = "cracks",
+                            .caption = "Cracks so far, by class.",
+                            .alt = "Numbers of cracks against axial strain; " +
                                    crack_words(crack_numbers(base, all_cracks)) + " at the end.",
-                            .content = stiffness_and_cracks(base)});
+                            .content = cracks_chart(base)});
   content.finding = "At " + cases.front().label + ": " + found + ".";
   const double ucs = base.value_or_nan(quantity::compressive_strength);
   const double ci = base.value_or_nan(quantity::initiation_by_stiffness);
@@ -439,11 +488,14 @@ FigureContent stress_strain(const StudyResult& study) {
   const std::string ucs = by_case(compression, quantity::compressive_strength, 4);
   const std::string ts = by_case(tension, quantity::tensile_strength, 3);
   if (!compression.empty()) {
-    content.panels.push_back(
-        {.id = "compression",
-         .caption = "Uniaxial compression: axial stress against axial, lateral and volumetric strain.",
-         .alt = "Stress-strain curves in compression; peaks of " + ucs + ".",
-         .content = compression_curves(compression)});
+    content.panels.push_back({.id = "compression",
+                              .caption = "Uniaxial compression: axial stress against axial and lateral strain.",
+                              .alt = "Stress-strain curves in compression; peaks of " + ucs + ".",
+                              .content = compression_curves(compression)});
+    content.panels.push_back({.id = "volume",
+                              .caption = "Uniaxial compression: axial stress against volumetric strain.",
+                              .alt = "Stress against volumetric strain in compression; peaks of " + ucs + ".",
+                              .content = volume_curves(compression)});
   }
   if (!tension.empty()) {
     content.panels.push_back({.id = "tension",
@@ -452,7 +504,7 @@ FigureContent stress_strain(const StudyResult& study) {
                               .content = tension_curves(tension)});
   }
   const auto found = strengths(compression, tension);
-  add_strengths(content, found);
+  add_strengths(content, study, found);
   content.finding = strengths_found(compression, tension, found, swept_axis(study));
   return content;
 }
@@ -468,7 +520,7 @@ FigureContent dip_strengths(const StudyResult& study) {
   const auto tension = swept(study, test_tension);
   add_missing(content, study, {test_compression, test_tension});
   const auto found = strengths(compression, tension);
-  add_strengths(content, found);
+  add_strengths(content, study, found);
   content.finding = strengths_found(compression, tension, found, swept_axis(study));
   return content;
 }
@@ -494,13 +546,13 @@ FigureContent group_shares(const StudyResult& study) {
     content.panels.push_back({.id = "minerals",
                               .caption = "Volume of the minerals.",
                               .alt = "Stacked bars of the mineral shares, nearly the same in every case.",
-                              .content = mineral_chart(cases)});
+                              .content = mineral_chart(study, cases)});
   }
   if (!members_of(cases, quantity::contact_share).empty()) {
     content.panels.push_back({.id = "contacts",
                               .caption = "Intra-grain contacts by mineral, and inter-grain contacts.",
                               .alt = "Stacked bars of the contact groups; inter-grain " + inter + ".",
-                              .content = contact_chart(cases)});
+                              .content = contact_chart(study, cases)});
     content.panels.push_back(
         {.id = "groups", .caption = "Every contact group.", .alt = "", .content = contact_table(cases)});
   }

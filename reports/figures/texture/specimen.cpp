@@ -81,10 +81,10 @@ render::Point along(const render::Point& from, const render::Point& direction, d
 
 // Spheres of one grain, its long axis (red, dashed) and a short axis (gold, dashed), seen along the other short axis; where
 // the long axis dips, the horizontal (grey) stands for the short axis.
-Picture cluster_picture(const SeriesCase& item, std::size_t index, double reach, bool dips) {
+Picture cluster_picture(const StudyResult& study, const SeriesCase& item, std::size_t index, double reach, bool dips) {
   const dem::Record& record = *item.record;
   const Grain grain = grains_of(record)[index];
-  const render::Spheres all = particles_by_mineral(record);
+  const render::Spheres all = particles_by_mineral(study, record);
   const auto grain_of = record.table("particles").integer("grain");
   render::Spheres cluster;
   for (std::size_t i = 0; i < all.centre.size(); ++i) {
@@ -111,7 +111,7 @@ Picture cluster_picture(const SeriesCase& item, std::size_t index, double reach,
   const render::Point level{-view[1], view[0], 0};
   const render::Point& other = dips ? level : across;
   const double length = beyond * (dips ? grain.semi_long : grain.semi_short);
-  const render::Colour other_colour = dips ? render::Colour{0.35, 0.35, 0.35} : render::Colour{0.66, 0.46, 0.0};
+  const render::Colour other_colour = dips ? render::Colour{0.24, 0.24, 0.24} : render::Colour{0.74, 0.52, 0.0};
   scene.lines.push_back(
       {{along(front, other, -length), along(front, other, length)}, other_colour, 3.5, render::Line::dash});
   // What growth made of the ellipsoid: the own axis of the spheres, as seen from here.
@@ -124,6 +124,7 @@ Picture cluster_picture(const SeriesCase& item, std::size_t index, double reach,
   scene.camera.direction = view;
   scene.camera.frame = {{{grain.centre[0] - reach, grain.centre[1] - reach, grain.centre[2] - 0.75 * reach},
                          {grain.centre[0] + reach, grain.centre[1] + reach, grain.centre[2] + 0.75 * reach}}};
+  scene.axes = true;
   scene.width = 640;
   scene.height = 480;
   return {.scene = std::move(scene),
@@ -156,22 +157,22 @@ FigureContent specimen(const StudyResult& study) {
   const dem::Record& base = *cases.front().record;
   const int width = 420;
   const std::string shares = mineral_shares(base);
-  content.panels.push_back(
-      {.id = "whole",
-       .caption = "The whole specimen.",
-       .alt = "Cylinder of " + count(static_cast<double>(base.table("particles").rows())) +
-              " spheres coloured by mineral: " + shares + " of the particles.",
-       .content =
-           Picture{.scene = specimen_scene(base, width), .label = cases.front().label, .legend = mineral_legend(base)},
-       .per_row = 4});
+  content.panels.push_back({.id = "whole",
+                            .caption = "The whole specimen.",
+                            .alt = "Cylinder of " + count(static_cast<double>(base.table("particles").rows())) +
+                                   " spheres coloured by mineral: " + shares + " of the particles.",
+                            .content = Picture{.scene = specimen_scene(study, base, width),
+                                               .label = cases.front().label,
+                                               .legend = mineral_legend(study, base)},
+                            .per_row = 4});
   for (const SeriesCase& item : cases) {
     content.panels.push_back(
         {.id = "section_" + item.id,
          .caption = "Longitudinal section.",
          .alt = "Section along the axis at " + item.label + ": " + mineral_shares(*item.record) + ".",
-         .content = Picture{.scene = section_scene(*item.record, width),
+         .content = Picture{.scene = section_scene(study, *item.record, width),
                             .label = item.label,
-                            .legend = mineral_legend(*item.record)},
+                            .legend = mineral_legend(study, *item.record)},
          .per_row = 4});
   }
   const Size size = size_of(base);
@@ -211,7 +212,7 @@ FigureContent grain_cluster(const StudyResult& study) {
          .alt = fmt::format(
              "Cluster of {} spheres of grain {} ({}) with its long axis of {:.2f} mm and short axis of {:.2f} mm.",
              grain.particles, *index, mineral, 2e3 * grain.semi_long, 2e3 * grain.semi_short),
-         .content = cluster_picture(item, *index, reach, swept_axis(study).id == "dip"),
+         .content = cluster_picture(study, item, *index, reach, swept_axis(study).id == "dip"),
          .per_row = 3});
   }
   const auto volume = [&](const SeriesCase& item) {

@@ -1,0 +1,108 @@
+#include "render/paper/strip.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+namespace render {
+namespace {
+
+constexpr Colour ink{0.12, 0.12, 0.12};
+constexpr double text = 11.6, strip_height = 46, axes_width = 52;
+
+/// An axis that runs along the eye: a ring, with a point where it comes towards it, with a cross where it goes away.
+void along_the_eye(Paper& paper, const Vec2& at, bool towards) {
+  constexpr double radius = 4.5;
+  paper.marker(Marker::circle, at, 2 * radius, ink, true);
+  if (towards)
+    paper.marker(Marker::circle, at, 3.4, ink);
+  else
+    paper.marker(Marker::cross, at, 1.2 * radius, ink);
+}
+
+void draw_axes(Paper& paper, const SceneResult& drawn) {
+  static constexpr std::array<std::string_view, 3> names{"x", "y", "z"};
+  constexpr double length = 20;
+  // Where the three fit into the strip, wherever they point.
+  Vec2 low, high;
+  for (std::size_t i = 0; i < 3; ++i) {
+    low = {std::min(low.x, drawn.right[i]), std::min(low.y, -drawn.up[i])};
+    high = {std::max(high.x, drawn.right[i]), std::max(high.y, -drawn.up[i])};
+  }
+  const Vec2 from{axes_width / 2 - length * (low.x + high.x) / 2, strip_height / 2 - length * (low.y + high.y) / 2};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double x = drawn.right[i], y = -drawn.up[i], seen = std::hypot(x, y);
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    const double towards = drawn.right[j] * drawn.up[k] - drawn.right[k] * drawn.up[j];
+    Vec2 label{from.x - 9, from.y + 9};
+    if (seen > 0.15) {
+      const Vec2 end{from.x + length * x, from.y + length * y};
+      const double ux = x / seen, uy = y / seen;
+      paper.line({from, {end.x - 3 * ux, end.y - 3 * uy}}, {ink, 1.2, Line::solid});
+      paper.polygon({end,
+                     {end.x - 6 * ux - 2.6 * uy, end.y - 6 * uy + 2.6 * ux},
+                     {end.x - 6 * ux + 2.6 * uy, end.y - 6 * uy - 2.6 * ux}},
+                    ink);
+      label = {end.x + 6 * ux, end.y + 6 * uy};
+    } else {
+      along_the_eye(paper, from, towards > 0);
+    }
+    paper.text(std::string(names[i]), {label.x, label.y + cap_height * text / 2 - 1},
+               {text, Anchor::middle, ink, false, false});
+  }
+}
+
+std::string tick_text(double value, double largest) {
+  const int digits = largest >= 100 ? 0 : largest >= 10 ? 1 : largest >= 1 ? 2 : 3;
+  std::string shown = fmt::format("{:.{}f}", std::abs(value), digits);
+  while (shown.find('.') != std::string::npos && (shown.back() == '0' || shown.back() == '.')) {
+    const bool point = shown.back() == '.';
+    shown.pop_back();
+    if (point) break;
+  }
+  return value < 0 && shown != "0" ? "\u2212" + shown : shown;
+}
+
+void draw_bar(Paper& paper, const ColourBar& bar, double left, double right) {
+  const double top = 18, bottom = 27;
+  const double step = (right - left) / static_cast<double>(std::max<std::size_t>(1, bar.colours.size()));
+  for (std::size_t k = 0; k < bar.colours.size(); ++k) {
+    const double at = left + step * static_cast<double>(k);
+    paper.rectangle({at, top, std::min(right, at + step + 0.4), bottom}, bar.colours[k]);
+  }
+  paper.frame({left, top, right, bottom}, {ink, 0.7, Line::solid});
+  paper.text(bar.title, {(left + right) / 2, 12}, {text, Anchor::middle, ink, false, false});
+  const double largest = std::max(std::abs(bar.low), std::abs(bar.high));
+  const int ticks = right - left < 130 ? 2 : 4;
+  for (int k = 0; k <= ticks; ++k) {
+    const double share = static_cast<double>(k) / ticks, x = left + share * (right - left);
+    paper.line({{x, bottom}, {x, bottom + 3}}, {ink, 0.7, Line::solid});
+    paper.text(tick_text(bar.low + share * (bar.high - bar.low), largest), {x, bottom + 5 + cap_height * text},
+               {text, Anchor::middle, ink, false, false});
+  }
+}
+
+}  // namespace
+
+bool has_strip(const Scene& scene) { return scene.axes || scene.bar; }
+
+Paper strip_of(const Scene& scene, const SceneResult& drawn) {
+  const int width = static_cast<int>(std::lround(scene.shown > 0 ? scene.shown : scene.width));
+  Paper paper(width, static_cast<int>(strip_height));
+  paper.rectangle({0, 0, static_cast<double>(width), strip_height}, scene.background);
+  if (scene.axes) draw_axes(paper, drawn);
+  // The words and the outermost numbers reach over the ends of the bar.
+  if (scene.bar) {
+    const double room = width - (scene.axes ? axes_width : 0) - 28;
+    const double length = std::min(room, 300.0);
+    const double left = (scene.axes ? axes_width : 0) + 14 + (room - length) / 2;
+    draw_bar(paper, *scene.bar, left, left + length);
+  }
+  return paper;
+}
+
+}  // namespace render

@@ -1,0 +1,13 @@
+#pragma once
+// The strip below a scene: the directions of its axes and the bar of its colours.
+#include "render/paper/paper.h"
+#include "render/scene/scene.h"
+
+namespace render {
+
+bool has_strip(const Scene& scene);
+
+/// As wide as the scene is shown, in px of the page.
+Paper strip_of(const Scene& scene, const SceneResult& drawn);
+
+}  // namespace render
