@@ -252,7 +252,7 @@ FigureContent crack_front(const StudyResult& study) {
     f.points.marker = render::Marker::circle;
     f.reach = styled(f.reach, "farthest so far", 5);
     chart.series = {f.points, f.reach};
-    const double speed = study.published_value("crack_speed_" + published_suffix(planes));  // m/s
+    const double speed = study.published_value("crack_speed_springs");  // m/s
     const double last = f.points.x.empty() ? 0 : std::ranges::max(f.points.x);
     if (std::isfinite(speed) && last > 0) {
       render::Series line = line_of(

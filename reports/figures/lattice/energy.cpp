@@ -252,10 +252,9 @@ FigureContent energy_tension(const StudyResult& study) {
     const double after = std::max(2.5 * (m.b2 - m.d1), 4e-6);
     inset.series = energies(h, m.d1 - 0.3 * after, m.d1 + after, m.d1, unit.factor);
     inset.marks = {upright(0, "B₁"), upright(1e6 * (m.b2 - m.d1), "B₂")};
-    const std::string theirs = published_suffix(r->text("planes"));
-    add_published(chart, render::Mark::Kind::vertical, 1e4 * study.published_value("failure_time_" + theirs),
+    add_published(chart, render::Mark::Kind::vertical, 1e4 * study.published_value("failure_time_springs"),
                   "published B₁");  // in 10⁻² s
-    const double share = study.published_value("kinetic_share_" + theirs);
+    const double share = study.published_value("kinetic_share_springs");
     add_published(chart, render::Mark::Kind::horizontal, 0.01 * share * unit.factor * value_at(h, {"work"}, m.d1),
                   fmt::format("published largest kinetic energy, {} %", number(share, 3)));
     inset.legend = render::Chart::Legend::none;
@@ -330,7 +329,7 @@ FigureContent heat_tension(const StudyResult& study) {
          .caption = fmt::format("Tension, planes: {}. Heat at failure.", planes),
          .alt = fmt::format("Breaking heat rises for {} µs.", number(1e6 * (m.d2 - m.d1), 3)),
          .content = heats(*r, m.d1 - 0.3 * span, m.d2 + 2.5 * span, m.d1, {{m.d1, "D₁"}, {m.d2, "D₂"}},
-                          study.published_value("crack_duration_" + published_suffix(planes)))});
+                          study.published_value("crack_duration_springs"))});
     std::string friction = r->has(quantity::friction_after_last_opening)
                                ? fmt::format(
                                      "frictional heat begins {} µs {} the last opening and ends at {} % of the work, "

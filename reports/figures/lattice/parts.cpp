@@ -129,8 +129,6 @@ render::Mark dot(double x, double y, const std::string& label) {
   return {.kind = render::Mark::Kind::point, .x = x, .y = y, .label = label, .colour = {0, 0, 0}};
 }
 
-std::string published_suffix(const std::string& planes) { return planes == "elastic" ? "springs" : planes; }
-
 std::string sentence(const std::vector<std::string>& parts) {
   if (parts.empty()) return {};
   std::string text = joined(parts, "; ") + ".";

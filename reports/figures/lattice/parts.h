@@ -43,9 +43,6 @@ render::Series styled(render::Series series, const std::string& label, std::size
 render::Mark upright(double x, const std::string& label);
 render::Mark dot(double x, double y, const std::string& label);
 
-/// How ids of published numbers end for a way of binding the end elements to the planes: "springs" for "elastic".
-std::string published_suffix(const std::string& planes);
-
 /// "A; b." of {"a", "b"}; "" of nothing.
 std::string sentence(const std::vector<std::string>& parts);
 
