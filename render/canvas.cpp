@@ -26,9 +26,11 @@ Canvas::Canvas() {
 }
 Canvas::~Canvas() = default;
 
-SceneResult Canvas::draw(const Scene& scene, const std::filesystem::path& png, const Provenance& facts, double dpi) {
+SceneResult Canvas::draw(const Scene& scene, const std::filesystem::path& png, const Provenance& facts, double dpi,
+                         const std::filesystem::path& svg) {
   SceneResult result;
   Image image = draw_scene(impl_->offscreen, scene, result);
+  if (!svg.empty()) dem::write_file(svg, to_svg(paper_of(scene, result), facts));
   if (has_strip(scene)) {
     const Paper strip = strip_of(scene, result);
     image = stacked(image, to_image(impl_->offscreen, strip, static_cast<double>(scene.width) / strip.width()));

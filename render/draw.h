@@ -24,8 +24,10 @@ class Canvas {
   /// Files are written aside, then renamed. Throws std::invalid_argument when columns of the chart differ in length.
   void draw(const Chart& chart, const std::filesystem::path& png, const std::filesystem::path& svg,
             const Provenance& facts, double dpi = 300);
-  /// `dpi` is noted in the file; the scene says how many pixels it has.
-  SceneResult draw(const Scene& scene, const std::filesystem::path& png, const Provenance& facts, double dpi = 0);
+  /// `dpi` is noted in the file; the scene says how many pixels it has. A scene without spheres in parallel view is also
+  /// drawn as vectors where `svg` names a file.
+  SceneResult draw(const Scene& scene, const std::filesystem::path& png, const Provenance& facts, double dpi = 0,
+                   const std::filesystem::path& svg = {});
   [[nodiscard]] std::string gl_renderer() const;  ///< for run.json
   /// A process that was forked after this became true cannot draw: the threads of the GL driver stayed behind.
   [[nodiscard]] static bool any_made();

@@ -103,6 +103,24 @@ void Paper::text(const std::string& text, const Vec2& at, const TextStyle& style
   }
 }
 
+void Paper::append(const Paper& other, const Vec2& by) {
+  const auto move = [&](std::vector<Vec2>& points) {
+    for (Vec2& p : points) p = {p.x + by.x, p.y + by.y};
+  };
+  for (Item item : other.items_) {
+    if (auto* fill = std::get_if<Fill>(&item)) {
+      move(fill->edge);
+      move(fill->lower);
+    } else if (auto* path = std::get_if<Path>(&item)) {
+      move(path->points);
+    } else {
+      Run& run = std::get<Run>(item);
+      run.at = {run.at.x + by.x, run.at.y + by.y};
+    }
+    items_.push_back(std::move(item));
+  }
+}
+
 std::vector<std::vector<Vec2>> clip(const std::vector<Vec2>& line, const Rect& window) {
   std::vector<std::vector<Vec2>> pieces;
   bool open = false;

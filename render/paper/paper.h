@@ -79,6 +79,9 @@ class Paper {
   /// `at` is on the base line. Understands _{...} and ^{...} for text set lower or higher in a smaller size.
   void text(const std::string& text, const Vec2& at, const TextStyle& style);
 
+  /// Another paper's items, moved.
+  void append(const Paper& other, const Vec2& by);
+
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
   [[nodiscard]] const std::vector<Item>& items() const { return items_; }

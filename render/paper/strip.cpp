@@ -8,6 +8,8 @@
 #include <numbers>
 #include <string_view>
 
+#include "render/scene/shapes.h"
+
 namespace render {
 namespace {
 
@@ -90,17 +92,49 @@ void draw_bar(Paper& paper, const ColourBar& bar, double left, double right) {
 
 bool has_strip(const Scene& scene) { return scene.axes || scene.bar; }
 
-Paper strip_of(const Scene& scene, const SceneResult& drawn) {
-  const int width = static_cast<int>(std::lround(scene.shown > 0 ? scene.shown : scene.width));
-  Paper paper(width, static_cast<int>(strip_height));
-  paper.rectangle({0, 0, static_cast<double>(width), strip_height}, scene.background);
+namespace {
+
+void draw_strip(Paper& paper, const Scene& scene, const SceneResult& drawn) {
+  const double width = paper.width();
   if (scene.axes) draw_axes(paper, drawn);
   // The words and the outermost numbers reach over the ends of the bar.
   if (scene.bar) {
-    const double room = width - (scene.axes ? axes_width : 0) - 28;
-    const double length = std::min(room, 300.0);
-    const double left = (scene.axes ? axes_width : 0) + 14 + (room - length) / 2;
+    const double left_of_bar = (scene.axes ? axes_width : 0) + 14;
+    const double room = width - left_of_bar - 14, length = std::min(room, 300.0);
+    const double left = left_of_bar + (room - length) / 2;
     draw_bar(paper, *scene.bar, left, left + length);
+  }
+}
+
+}  // namespace
+
+Paper strip_of(const Scene& scene, const SceneResult& drawn) {
+  const int width = static_cast<int>(std::lround(scene.width / scene.pen()));
+  Paper paper(width, static_cast<int>(strip_height));
+  paper.rectangle({0, 0, static_cast<double>(width), strip_height}, scene.background);
+  draw_strip(paper, scene, drawn);
+  return paper;
+}
+
+Paper paper_of(const Scene& scene, const SceneResult& drawn) {
+  const double pen = scene.pen(), width = scene.width / pen, height = scene.height / pen;
+  const double strip = has_strip(scene) ? strip_height : 0;
+  Paper paper(static_cast<int>(std::lround(width)), static_cast<int>(std::lround(height + strip)));
+  paper.rectangle({0, 0, width, height + strip}, scene.background);
+  for (const FlatShape& shape : flat_shapes(scene, fit_view(scene))) {
+    std::vector<Vec2> points;
+    for (const Point& p : shape.points) points.push_back({width / 2 + p[0] / pen, height / 2 - p[1] / pen});
+    std::vector<Vec2> edge = points;
+    if (shape.face) {
+      edge.push_back(edge.front());
+      paper.polygon(std::move(points), shape.colour);
+    }
+    paper.line(std::move(edge), {shape.face ? shape.edge : shape.colour, shape.width, shape.line});
+  }
+  if (strip > 0) {
+    Paper below(paper.width(), static_cast<int>(strip_height));
+    draw_strip(below, scene, drawn);
+    paper.append(below, {0, height});
   }
   return paper;
 }

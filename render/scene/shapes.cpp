@@ -382,6 +382,47 @@ Triangles opaque_shapes(const Scene& scene, const View& view) {
   return out;
 }
 
+std::vector<FlatShape> flat_shapes(const Scene& scene, const View& view) {
+  std::vector<FlatShape> shapes;
+  const auto add_line = [&](const Polyline& line, double lift) {
+    for (const auto& run : kept_runs(line.points, scene.cuts)) {
+      const std::vector<Point> seen = to_view(view, run);
+      double depth = lift;
+      for (const Point& p : seen) depth += p[2] / static_cast<double>(seen.size());
+      shapes.push_back(
+          {.points = seen, .colour = line.colour, .edge = {}, .width = line.width, .line = line.line, .depth = depth});
+    }
+  };
+  for (const auto& discs : scene.discs) {
+    for (std::size_t i = 0; i < discs.centre.size(); ++i) {
+      const Point normal = unit(discs.normal[i]);
+      auto face = ring(discs.centre[i], normal, discs.radius[i], 12);
+      if (!discs.over) face = kept(std::move(face), scene.cuts, scene.cuts.size());
+      if (face.size() < 3) continue;
+      const double facing = std::abs(dot(normal, view.back)), depth = view.to_view(discs.centre[i])[2];
+      shapes.push_back({.points = to_view(view, face),
+                        .face = true,
+                        .colour = shade(discs.colour[i], 0.78 + 0.22 * facing),
+                        .edge = shade(discs.colour[i], 0.6),
+                        .width = 0.4,
+                        .depth = discs.over ? depth + view.over_z : depth});
+    }
+  }
+  for (const auto& line : scene.lines) add_line(line, 0.5);
+  if (scene.outline.shape != Outline::Shape::none) {
+    const auto edges = scene.outline.shape == Outline::Shape::cylinder ? cylinder_edges(scene.outline, view)
+                                                                       : box_edges(scene.outline, view);
+    for (const Edge& edge : edges) {
+      const double beyond = edge.hidden ? -view.over_z : view.over_z;  // hidden ones behind all, others before all
+      add_line({edge.points, edge.hidden ? scene.outline.colour : shade(scene.outline.colour, 0.55),
+                edge.hidden ? 0.7 : 1.0, edge.hidden ? Line::dash : Line::solid},
+               beyond);
+    }
+  }
+  std::ranges::stable_sort(shapes, {}, &FlatShape::depth);
+  return shapes;
+}
+
 Triangles outline_surface(const Scene& scene, const View& view) {
   Triangles out;
   if (scene.outline.shape == Outline::Shape::none || scene.outline.opacity <= 0) return out;

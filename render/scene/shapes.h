@@ -47,6 +47,20 @@ struct Triangles {
 /// Lines, discs and cut faces of a scene: opaque.
 Triangles opaque_shapes(const Scene& scene, const View& view);
 
+/// A convex face with an edge, or a line, in view coordinates.
+struct FlatShape {
+  std::vector<Point> points;
+  bool face = false;
+  Colour colour;     ///< of the face, or of the line
+  Colour edge;       ///< of the edge of a face
+  double width = 0;  ///< of the line or edge, px of the page
+  Line line = Line::solid;
+  double depth = 0;  ///< the greater, the nearer to the eye
+};
+
+/// What a scene without spheres is made of, from back to front: for drawings that painters, not depth buffers, make.
+std::vector<FlatShape> flat_shapes(const Scene& scene, const View& view);
+
 /// The outline's see-through surface, from back to front; empty when there is none.
 Triangles outline_surface(const Scene& scene, const View& view);
 

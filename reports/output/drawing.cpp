@@ -61,6 +61,14 @@ render::Scene sized(render::Scene scene, int per_row, double dpi) {
   return scene;
 }
 
+// Scenes without spheres are also drawn as vectors, unless they would take megabytes.
+bool as_vectors(const render::Scene& scene) {
+  constexpr std::size_t most = 8000;
+  std::size_t shapes = scene.lines.size();
+  for (const render::Discs& discs : scene.discs) shapes += discs.centre.size();
+  return scene.spheres.empty() && scene.camera.parallel && shapes <= most;
+}
+
 // The files of a panel, the one to show first.
 std::vector<std::string> files_of(const Panel& panel, const std::string& name) {
   const std::string picture = std::string(pictures) + name, table = std::string(tables) + name + ".csv";
@@ -70,7 +78,10 @@ std::vector<std::string> files_of(const Panel& panel, const std::string& name) {
       files.push_back(std::string(tables) + name + (one.suffix.empty() ? "" : "_" + one.suffix) + ".csv");
     return files;
   }
-  if (std::holds_alternative<Picture>(panel.content)) return {picture + ".png"};
+  if (const auto* drawn = std::get_if<Picture>(&panel.content)) {
+    if (as_vectors(drawn->scene)) return {picture + ".png", picture + ".svg"};
+    return {picture + ".png"};
+  }
   if (std::holds_alternative<TextTable>(panel.content)) return {table};
   return {picture + ".svg"};
 }
@@ -113,7 +124,8 @@ render::SceneResult draw(const Job& job, const std::filesystem::path& folder, do
     for (std::size_t i = 0; i < data.size(); ++i) dem::write_file(files[i + 2], data[i].text());
   } else if (const auto* picture = std::get_if<Picture>(&job.panel->content)) {
     const int per_row = job.panel->per_row > 0 ? job.panel->per_row : pictures_per_row;
-    result = canvas().draw(sized(picture->scene, per_row, dpi), files[0], job.facts, dpi);
+    result = canvas().draw(sized(picture->scene, per_row, dpi), files[0], job.facts, dpi,
+                           files.size() > 1 ? files[1] : std::filesystem::path());
   } else if (const auto* table = std::get_if<TextTable>(&job.panel->content)) {
     dem::write_file(files[0], csv(*table));
   } else {

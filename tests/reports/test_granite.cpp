@@ -213,14 +213,14 @@ TEST_CASE("figures show what the paper states beside ours, and nothing for anoth
   study.published = reports::published_numbers(study, std::filesystem::path(DEM_SOURCE_DIR) / "assets/papers");
   CHECK(has(labels(confinement_envelopes(study)), "published fits"));
   CHECK(has(labels(confinement_envelopes(study)), "Martin’s laboratory peak"));
-  CHECK(has(labels(confinement_envelopes(study)), "laboratories’ σci, Eq. 12"));
+  CHECK(has(labels(confinement_envelopes(study)), "laboratories’ σ_{ci}, Eq. 12"));
   const auto table = std::get<reports::TextTable>(confinement_envelopes(study).panels.at(1).content);
   std::vector<std::string> published;
   for (const auto& row : table.rows) published.push_back(row[2]);
   CHECK(joined(published).starts_with("29 206 29 16 0.6 71.1 1.1 "));
-  CHECK(has(labels(progressive_failure(study)), "published σci published σcd published peak"));
+  CHECK(has(labels(progressive_failure(study)), "published σ_{ci} and σ_{cd} published peak"));
   CHECK(curves() == 3);
-  const auto mineral = std::get<reports::TextTable>(reports::texture::mineral_properties(study).panels.back().content);
+  const auto mineral = std::get<reports::TextTable>(reports::texture::mineral_properties(study).panels.front().content);
   REQUIRE(mineral.rows.size() == 1);
   CHECK(has(mineral.rows[0][3], " / 418"));
   const auto inputs = reports::texture::input_parameters(study).panels.back();

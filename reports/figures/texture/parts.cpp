@@ -141,7 +141,7 @@ std::vector<std::string> minerals_of(const dem::Record& record) {
 }
 
 render::Colour mineral_colour(const StudyResult& study, std::string_view mineral) {
-  if (!study.scenario || !study.scenario->declares("mineral[].name")) return mineral_palette.front();
+  if (!study.scenario) return mineral_palette.front();
   const dem::Scenario& s = *study.scenario;
   // Results have signs of a name as "_", and names of groups are shown with blanks for them.
   const auto plain = [](std::string text) {
