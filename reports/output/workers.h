@@ -21,8 +21,9 @@ struct ProcessEnded : dem::EnvironmentError {
 /// `taken` is told now and then how many pieces have been taken.
 /// When `stopped` says so, or somebody ends one of the processes with SIGTERM, SIGINT or SIGHUP, all are ended and
 /// dem::Interrupted is thrown.
-/// Throws dem::EnvironmentError for the first one that a piece threw, std::runtime_error for the first other error, and
-/// ProcessEnded when a process is ended by a signal, dem::EnvironmentError when none can be made. All processes have ended by then.
+/// Throws dem::EnvironmentError for the first one that a piece threw, std::runtime_error for the first other error,
+/// ProcessEnded when a process is ended by a signal, and dem::EnvironmentError when none can be made, when a piece gets no
+/// more threads, or when a process only waits for 20 s: pieces compute. All processes have ended by then.
 std::vector<std::byte> in_processes(
     std::size_t count, std::size_t size, int workers,
     const std::function<void(std::size_t piece, std::byte* result)>& work,

@@ -2,12 +2,16 @@
 // before the first fork.
 #include <doctest/doctest.h>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <map>
 #include <stdexcept>
+#include <system_error>
 
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
@@ -71,6 +75,10 @@ TEST_CASE("what a process throws, or a signal that ends it, reaches the caller")
                        reports::ProcessEnded);
   CHECK_THROWS_WITH_AS(run([] { std::raise(SIGSEGV); }), doctest::Contains("signal 11 (Segmentation fault)"),
                        reports::ProcessEnded);
+  CHECK_THROWS_WITH_AS(run([] { throw std::system_error(EAGAIN, std::generic_category(), "a thread"); }),
+                       doctest::Contains("no more threads or memory"), dem::EnvironmentError);
+  CHECK_THROWS_WITH_AS(run([] { throw std::runtime_error("pthread_create has failed: no"); }),
+                       doctest::Contains("try --threads 1"), dem::EnvironmentError);
   CHECK_THROWS_WITH_AS(run([] { _exit(1); }), doctest::Contains("ended by an error"), reports::ProcessEnded);
   for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
     try {
@@ -80,6 +88,22 @@ TEST_CASE("what a process throws, or a signal that ends it, reaches the caller")
       CHECK(interrupted.signal == signal);
     }
   }
+}
+
+TEST_CASE("a process that only waits is given up") {
+  const auto wait = [](std::size_t) { return static_cast<int>(::sleep(600)); };
+  CHECK_THROWS_WITH_AS(reports::in_processes<int>(2, 2, wait), doctest::Contains("has stood still for 20 s"),
+                       dem::EnvironmentError);
+}
+
+TEST_CASE("a library that crashes where memory is limited: the limit is named") {
+  rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_AS, &before) == 0);
+  const rlimit limited{std::min<rlim_t>(rlim_t{1} << 40, before.rlim_max), before.rlim_max};
+  REQUIRE(::setrlimit(RLIMIT_AS, &limited) == 0);
+  CHECK_THROWS_WITH_AS(reports::in_processes<int>(1, 1, [](std::size_t) { return std::raise(SIGSEGV); }),
+                       doctest::Contains("1048576 MiB are allowed here (ulimit -v)"), reports::ProcessEnded);
+  CHECK(::setrlimit(RLIMIT_AS, &before) == 0);
 }
 
 TEST_CASE("processes are ended at once when the caller is asked to stop") {
