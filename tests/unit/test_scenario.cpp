@@ -51,6 +51,19 @@ TEST_CASE("a list of tables in a scale replaces the list as a whole") {
   CHECK_THROWS_AS((void)scenario.text("mineral[1].name"), std::logic_error);
 }
 
+TEST_CASE("a key that takes its value from another one follows that one") {
+  const std::string text = good + "[[extra]]\nheight = \"30 mm\"\n[[extra]]\nshape = \"prism\"\n";
+  const dem::Scenario usual = read(text), other = read(text, {"specimen.height=\"70 mm\""});
+  CHECK(usual.real("extra[0].height") == 0.03);
+  CHECK(usual.text("extra[0].shape") == "cylinder");
+  CHECK(usual.real("extra[1].height") == 0.05);
+  CHECK(usual.text("extra[1].shape") == "prism");
+  CHECK(other.real("extra[1].height") == 0.07);
+  CHECK(usual.given("extra[0].height"));
+  CHECK_FALSE(usual.given("extra[1].height"));
+  CHECK(dem::explain(test::keys_of("rock")).find("default that of specimen.height") != std::string::npos);
+}
+
 TEST_CASE("the same quantity in any of its units is the same double") {
   CHECK(dem::read_quantity("0.35 mm", "mm") == 0.00035);
   CHECK(dem::read_quantity("350 um", "mm") == 0.00035);
