@@ -43,7 +43,7 @@ State state() {
 }
 
 dem::Record record() {
-  static const dem::Quantity none[] = {{.id = "unused"}};
+  static const dem::Quantity none[] = {{.id = "unused", .name = "Unused"}};
   dem::Record made;
   made.model = "sheet", made.scenario = "fuzz", made.case_id = "case", made.content = "seed = 1\n";
   made.physics_version = "sheet 9";
