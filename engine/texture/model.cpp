@@ -100,6 +100,7 @@ std::vector<Variant> variants_of(const Scenario& s) {
   std::vector<Variant> variants;
   const auto add = [&](const Variant& v, const std::string& key) {
     if (std::ranges::any_of(variants, [&](const Variant& other) { return other.values() == v.values(); })) {
+      if (v.extra) return;  // what sets it apart in one rock may be usual in another
       throw s.error(key, "the same specimen is asked for twice", "give each specimen once");
     }
     variants.push_back(v);

@@ -197,7 +197,8 @@ TEST_CASE("a run that is killed leaves nothing half-written, and the next one th
   CHECK(again.code == due_code(folder.path()));
   CHECK(dem::read_file(record(folder.path())) == uncut_record());
   CHECK(fs::exists(left));
-  CHECK(std::distance(fs::directory_iterator(record(folder.path()).parent_path()), {}) == 2);
+  // The record, run.json and what was left.
+  CHECK(std::distance(fs::directory_iterator(record(folder.path()).parent_path()), {}) == 3);
 }
 
 TEST_CASE("stopped while the specimen is packed: nothing is promised that is not there") {
@@ -243,7 +244,7 @@ TEST_CASE("--report-only without records is one line and exit code 2; with some 
   CHECK(outcome.out.empty());
   CHECK(outcome.err == "dem-report: " + scenario +
                            ": --report-only: there is no record to draw from in out/ldb_aspect_ratio.smoke (" + id +
-                           ": no record); run it once without --report-only\n");
+                           ": no record yet); run it once without --report-only\n");
   CHECK(fs::is_empty(folder.path()));
 
   const Texts texture = {DEM_SOURCE_DIR "/scenarios/ldb_texture.toml", "--scale", "smoke", "--format", "html"};
@@ -256,7 +257,7 @@ TEST_CASE("--report-only without records is one line and exit code 2; with some 
   const test::Outcome some = with({"--report-only", "--only", "genesis_contacts"});
   CAPTURE(some.err);
   CHECK(some.code == 1);
-  CHECK(has(some.err, "failed: There is no record to draw from (no record)"));
+  CHECK(has(some.err, "failed: There is no record to draw from (no record yet)"));
   CHECK(has(dem::read_file(folder / "out/ldb_texture.smoke/only.genesis_contacts/report.html"),
             "There is no record to draw from"));
 }
