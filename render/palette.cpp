@@ -17,7 +17,7 @@ Colour palette(std::size_t index) {
 }
 
 Colour ordered(std::size_t index, std::size_t count) {
-  constexpr Colour light{0.80, 0.89, 0.96}, dark{0.03, 0.16, 0.35};
+  constexpr Colour light{0.863, 0.933, 0.980}, dark{0.016, 0.078, 0.180};
   const double share = count < 2 ? 0.5 : static_cast<double>(index) / static_cast<double>(count - 1);
   const auto mix = [&](double Colour::*part) { return light.*part + share * (dark.*part - light.*part); };
   return {mix(&Colour::red), mix(&Colour::green), mix(&Colour::blue)};

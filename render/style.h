@@ -18,7 +18,8 @@ enum class Pattern { none, rising, falling };  ///< hatching of a filled shape
 /// Colours of lines and bars, by index; seven, then from the start. Any two are 15 apart (CIEDE2000) for readers with and
 /// without red or green cones, each has a contrast of 3 with white. In grey, lines and markers tell them apart.
 Colour palette(std::size_t index);
-/// Fills of an ordered series, from light to dark, as far apart in grey as `count` allows.
+/// Fills of an ordered series, from light to dark, as far apart in grey as `count` allows; four
+/// are 15 apart (CIEDE2000).
 Colour ordered(std::size_t index, std::size_t count);
 /// The line that goes with it: solid, dash, dash-dot, dot, then from the start.
 Line line_style(std::size_t index);

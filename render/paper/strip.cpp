@@ -58,32 +58,35 @@ void draw_axes(Paper& paper, const SceneResult& drawn) {
   }
 }
 
-std::string tick_text(double value, double largest) {
-  const int digits = largest >= 100 ? 0 : largest >= 10 ? 1 : largest >= 1 ? 2 : 3;
-  std::string shown = fmt::format("{:.{}f}", std::abs(value), digits);
-  while (shown.find('.') != std::string::npos && (shown.back() == '0' || shown.back() == '.')) {
-    const bool point = shown.back() == '.';
-    shown.pop_back();
-    if (point) break;
-  }
-  return value < 0 && shown != "0" ? "\u2212" + shown : shown;
+/// 1, 2 or 5 times a power of ten, so that `length` has `steps` of them at most.
+double round_step(double length, int steps) {
+  const double power = std::pow(10, std::floor(std::log10(length / steps)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * power * steps >= length * (1 - 1e-9)) return factor * power;
+  return 10 * power;
+}
+
+std::string tick_text(double value, double step) {
+  const int digits = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
+  const std::string shown = fmt::format("{:.{}f}", std::abs(value), digits);
+  return value < -0.5 * step ? "\u2212" + shown : shown;
 }
 
 void draw_bar(Paper& paper, const ColourBar& bar, double left, double right) {
   const double top = 18, bottom = 27;
-  const double step = (right - left) / static_cast<double>(std::max<std::size_t>(1, bar.colours.size()));
+  const double share = (right - left) / static_cast<double>(std::max<std::size_t>(1, bar.colours.size()));
   for (std::size_t k = 0; k < bar.colours.size(); ++k) {
-    const double at = left + step * static_cast<double>(k);
-    paper.rectangle({at, top, std::min(right, at + step + 0.4), bottom}, bar.colours[k]);
+    const double at = left + share * static_cast<double>(k);
+    paper.rectangle({at, top, std::min(right, at + share + 0.4), bottom}, bar.colours[k]);
   }
   paper.frame({left, top, right, bottom}, {ink, 0.7, Line::solid});
   paper.text(bar.title, {(left + right) / 2, 12}, {text, Anchor::middle, ink, false, false});
-  const double largest = std::max(std::abs(bar.low), std::abs(bar.high));
-  const int ticks = right - left < 130 ? 2 : 4;
-  for (int k = 0; k <= ticks; ++k) {
-    const double share = static_cast<double>(k) / ticks, x = left + share * (right - left);
+  if (!(bar.high > bar.low)) return;
+  const double step = round_step(bar.high - bar.low, right - left < 130 ? 3 : 6);
+  for (double k = std::ceil(bar.low / step - 1e-9); k * step <= bar.high + 1e-9 * step; ++k) {
+    const double x = left + (k * step - bar.low) / (bar.high - bar.low) * (right - left);
     paper.line({{x, bottom}, {x, bottom + 3}}, {ink, 0.7, Line::solid});
-    paper.text(tick_text(bar.low + share * (bar.high - bar.low), largest), {x, bottom + 5 + cap_height * text},
+    paper.text(tick_text(k * step, step), {x, bottom + 5 + cap_height * text},
                {text, Anchor::middle, ink, false, false});
   }
 }

@@ -42,11 +42,11 @@ std::vector<double> work_of(const dem::Table& history, const std::vector<analysi
 // In the order of the ledgers' shares; neighbours differ by more than 15 for every reader, and in grey.
 render::Colour share_colour(std::size_t index) {
   constexpr std::array<render::Colour, 6> colours{{{0.612, 0.773, 0.875},    // elastic
-                                                   {0.110, 0.110, 0.110},    // kinetic
+                                                   {0.000, 0.000, 0.000},    // kinetic
                                                    {0.671, 0.918, 0.733},    // damping
                                                    {0.855, 0.549, 0.129},    // friction
                                                    {0.239, 0.408, 0.533},    // bonds broken in tension
-                                                   {0.455, 0.110, 0.110}}};  // and in shear
+                                                   {0.541, 0.125, 0.125}}};  // and in shear
   return colours[index % colours.size()];
 }
 

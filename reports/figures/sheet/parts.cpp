@@ -106,6 +106,9 @@ std::string Drawing::finish(double extra_below) const {
 std::string Drawing::finish_with_key(const std::vector<KeyItem>& key) {
   constexpr double size = 12, row = 20, sample = 20;
   double x = 2, y = height_ + 18;
+  // Grains reach over the edge of the box.
+  body_ += fmt::format("<rect x=\"0\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{}\" fill=\"#ffffff\"/>", height_ + 0.5,
+                       width_, 4 * row);
   for (const KeyItem& item : key) {
     const double wide = sample + 6 + 0.58 * size * static_cast<double>(item.text.size()) + 18;
     if (x > 2 && x + wide > width_ + 18) x = 2, y += row;
@@ -190,7 +193,7 @@ std::string fracture_map(const dem::Record& record, double strain, double width)
                     width - 1, (high - low) * d.scale() - 1));
   const auto n = crack_counts(record, strain);
   std::vector<KeyItem> key{{std::string(intra_colour), fmt::format("inside grains: {}", count(n[0])), true},
-                           {std::string(inter_colour), fmt::format("between grains: {}", count(n[1])), true}};
+                           {std::string(inter_colour), fmt::format("at boundaries: {}", count(n[1])), true}};
   bool any = false;
   for (std::size_t g = 0; g < outlines.size(); ++g) any = any || marked(record, g);
   if (any) key.push_back({std::string(marked_fill), layered(record) ? "layer" : "growing grains", false});

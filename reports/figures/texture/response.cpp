@@ -272,6 +272,11 @@ render::Chart ratio_chart(const StudyResult& study, const std::vector<Strength>&
       low = std::min(low, s.y[i] - error);
       high = std::max(high, s.y[i] + error);
     }
+  const double margin = found.empty() ? 1 : std::max(0.06 * (found.back().at - found.front().at), 1e-6);
+  if (found.size() > 1) {
+    chart.x.low = found.front().at - margin;
+    chart.x.high = found.back().at + margin;
+  }
   const double room = std::max(0.25 * (high - low), 0.06 * high);
   chart.left.low = std::floor(low - room);
   chart.left.high = std::ceil(high + room);
@@ -390,7 +395,7 @@ render::Chart contact_chart(const StudyResult& study, const std::vector<SeriesCa
     const auto values = over_cases(cases, quantity::contact_share, name);
     for (std::size_t i = 0; i < values.size(); ++i) between[i] += values[i];
   }
-  add_stack(chart, "inter-grain", {1, 1, 1}, between);
+  add_stack(chart, "inter-grain", render::palette(0), between);
   for (const std::string& name : names) {
     if (!name.starts_with("intra_")) continue;
     const std::string mineral = words(name.substr(6));

@@ -106,20 +106,20 @@ Picture cluster_picture(const StudyResult& study, const SeriesCase& item, std::s
   const double beyond = 1.25;
   scene.lines.push_back({{along(front, a, -beyond * grain.semi_long), along(front, a, beyond * grain.semi_long)},
                          {0.75, 0.05, 0.05},
-                         3.5,
+                         1.8,
                          render::Line::dash});
   const render::Point level{-view[1], view[0], 0};
   const render::Point& other = dips ? level : across;
   const double length = beyond * (dips ? grain.semi_long : grain.semi_short);
-  const render::Colour other_colour = dips ? render::Colour{0.24, 0.24, 0.24} : render::Colour{0.74, 0.52, 0.0};
+  const render::Colour other_colour{0.74, 0.52, 0.0};
   scene.lines.push_back(
-      {{along(front, other, -length), along(front, other, length)}, other_colour, 3.5, render::Line::dash});
+      {{along(front, other, -length), along(front, other, length)}, other_colour, 1.8, render::Line::dash});
   // What growth made of the ellipsoid: the own axis of the spheres, as seen from here.
   const render::Colour own_colour{0, 0, 0};
   scene.lines.push_back(
       {{along(front, grain.own_axis, -beyond * grain.own_long), along(front, grain.own_axis, beyond * grain.own_long)},
        own_colour,
-       2.0,
+       1.2,
        render::Line::solid});
   scene.camera.direction = view;
   scene.camera.frame = {{{grain.centre[0] - reach, grain.centre[1] - reach, grain.centre[2] - 0.75 * reach},
