@@ -68,14 +68,17 @@ std::string first_line(const char* path) {
 }
 
 /// When a process began, in ticks since the boot: with it a number that is given again is told from the first. "": there
-/// is no such process.
+/// is no such process, or it has ended and nobody has asked how: after a kill that takes the parent too, the first process
+/// of the machine does, some time later.
 std::string beginning_of(pid_t process) {
   const std::string line = first_line(("/proc/" + std::to_string(process) + "/stat").c_str());
   std::size_t at = line.rfind(')');  // the second field, the name, may hold anything
+  const std::size_t ended = at + 2;  // the third: the state
   for (int field = 2; field < 21 && at != std::string::npos; ++field) at = line.find(' ', at + 1);
   if (at == std::string::npos) {
     return ::kill(process, 0) == 0 || errno == EPERM ? "0" : "";  // no /proc: the number has to do
   }
+  if (line[ended] == 'Z' || line[ended] == 'X') return "";
   return line.substr(at + 1, line.find(' ', at + 1) - at - 1);
 }
 

@@ -203,3 +203,16 @@ TEST_CASE("leftovers of a dead process are removed, those of a living one and of
     CHECK(names() == stay);
   });
 }
+
+TEST_CASE("what a process left goes although nobody has asked yet how it ended") {
+  const test::Scratch folder;
+  const pid_t child = ::fork();
+  REQUIRE(child >= 0);
+  if (child == 0) dem::write_aside(folder / "results.h5", [](const auto&) { ::raise(SIGKILL); });
+  siginfo_t end{};
+  REQUIRE(::waitid(P_PID, static_cast<id_t>(child), &end, WEXITED | WNOWAIT) == 0);
+  REQUIRE_FALSE(std::filesystem::is_empty(folder.path()));
+  dem::remove_leftovers(folder.path());
+  CHECK(std::filesystem::is_empty(folder.path()));
+  CHECK(::waitpid(child, nullptr, 0) == child);
+}
