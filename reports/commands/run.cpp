@@ -117,6 +117,7 @@ std::string stopped_text(const dem::Interrupted& interrupted, const std::string&
 
 int perform(const Arguments& arguments) {
   const RunRequest request = run_request(arguments);
+  find_executor(request.executor.name).check(request);
   if (request.report_only) {
     for (const dem::Study& study : checked_studies(request)) dem::check_records(study, study_options(request));
   }

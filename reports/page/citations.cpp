@@ -52,20 +52,24 @@ Citation citation(const nlohmann::json& declared) {
                  .type = declared.at("type"),
                  .title = declared.at("title"),
                  .venue = {},
-                 .year = declared.at("year"),
+                 .year = optional("year"),
                  .volume = optional("volume"),
                  .number = optional("number"),
                  .pages = optional("pages"),
                  .doi = optional("doi"),
                  .reason = declared.at("for"),
                  .authors = declared.at("authors"),
-                 .version = {}};
-  if (cited.type != "software") cited.venue = declared.at(std::string(venue_field(cited.type)));
+                 .version = {},
+                 .note = optional("note")};
+  if (cited.type != "software" && cited.type != "unpublished")
+    cited.venue = declared.at(std::string(venue_field(cited.type)));
   return cited;
 }
 
 std::string reference(const Citation& cited) {
-  std::string text = joined(cited.authors, ", ") + " (" + cited.year + "). " + cited.title;
+  std::string text = cited.authors.empty() ? "" : joined(cited.authors, ", ") + " (" + cited.year + "). ";
+  text += cited.title;
+  if (!cited.note.empty()) text += "; " + cited.note;
   if (!cited.version.empty()) text += ", version " + cited.version;
   if (!cited.venue.empty()) text += ". " + cited.venue;
   if (!cited.volume.empty()) text += " " + cited.volume;
@@ -77,7 +81,7 @@ std::string reference(const Citation& cited) {
 std::string bibtex(const Citation& cited) {
   std::vector<std::string> authors;
   for (const std::string& name : cited.authors) authors.push_back(bibtex_name(name));
-  const std::string version = cited.version.empty() ? "" : "Version " + cited.version;
+  const std::string note = cited.version.empty() ? cited.note : "Version " + cited.version;
   const std::array<std::pair<std::string_view, std::string>, 8> fields{
       {{"title", "{" + for_latex(cited.title) + "}"},
        {venue_field(cited.type), for_latex(cited.venue)},
@@ -86,14 +90,15 @@ std::string bibtex(const Citation& cited) {
        {"number", cited.number},
        {"pages", for_latex(cited.pages)},
        {"doi", cited.doi},
-       {"note", version}}};
+       {"note", note}}};
   // Every BibTeX knows "misc"; "software" is known to some.
   std::string text = "@" + (cited.type == "software" ? std::string("misc") : cited.type) + "{" + cited.key + ",\n";
-  text += "  author = {" + joined(authors, " and ") + "}";
+  if (!authors.empty()) text += "  author = {" + joined(authors, " and ") + "},\n";
+  std::string rest;
   for (const auto& [name, value] : fields) {
-    if (!value.empty()) text += ",\n  " + std::string(name) + " = {" + value + "}";
+    if (!value.empty()) rest += (rest.empty() ? "  " : ",\n  ") + std::string(name) + " = {" + value + "}";
   }
-  return text + "\n}\n";
+  return text + rest + "\n}\n";
 }
 
 }  // namespace reports

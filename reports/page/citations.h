@@ -1,7 +1,7 @@
 #pragma once
 // What to cite, as a line of a reference list and as BibTeX, from one declaration (citations.json, assets/page/citation.json):
-//   key, type ("article", "inproceedings", "book", "software"), authors ("Strack ODL": family, initials), title,
-//   journal | booktitle | publisher, year, volume, number, pages ("47–65"), doi, for (what it is cited for)
+//   key, type ("article", "inproceedings", "book", "unpublished", "software"), authors ("Strack ODL": family, initials), title,
+//   journal | booktitle | publisher, year, volume, number, pages ("47–65"), doi, note, for (what it is cited for)
 #include <string>
 #include <vector>
 
@@ -13,6 +13,7 @@ struct Citation {
   std::string key, type, title, venue, year, volume, number, pages, doi, reason;
   std::vector<std::string> authors;
   std::string version;  ///< of software
+  std::string note;     ///< "a text without author or date"
 };
 
 /// Throws nlohmann::json::exception when a member that must be there is not.
