@@ -156,18 +156,6 @@ TEST_CASE("dashes cover their share of a line, whatever its corners") {
   CHECK(render::dashes(line, render::Line::none, 2).empty());
 }
 
-TEST_CASE("colours of the palette stay apart, in colour and for the first four in grey") {
-  std::vector<double> grey;
-  for (std::size_t i = 0; i < 7; ++i) {
-    const auto a = render::palette(i);
-    grey.push_back(0.299 * a.red + 0.587 * a.green + 0.114 * a.blue);
-    for (std::size_t k = 0; k < i; ++k) {
-      const auto b = render::palette(k);
-      CHECK(std::abs(a.red - b.red) + std::abs(a.green - b.green) + std::abs(a.blue - b.blue) > 0.25);
-    }
-  }
-}
-
 TEST_CASE("only spheres that no ray reaches are left out") {
   dem::RandomStream random(3, dem::Purpose::test_data);
   std::vector<render::ViewSphere> spheres;
