@@ -200,6 +200,7 @@ PageData rows_data(const DrawnFigure& figure, const std::filesystem::path& folde
     row.set("has_shared_caption", shared.caption);
     row.set("letters", members.front().letter + "–" + members.back().letter);
     row.set("shared_caption", members.front().caption);
+    row.set("has_shared_legend", !key.empty());
     row.set("shared_legend", legend_data(key));
     rows.push_back(row);
   }
