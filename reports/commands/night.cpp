@@ -112,7 +112,7 @@ StudyPlan plan_of(const dem::Study& study, const dem::StudyOptions& options) {
     } else if (options.report_only) {
       plan.lines.push_back(spec.id + ": no record to draw from (" + why + ")");
     } else {
-      plan.lines.push_back(fmt::format("{}: simulated, {}; about {} ({})", spec.id, why,
+      plan.lines.push_back(fmt::format("{}: to simulate, {}; about {} ({})", spec.id, why,
                                        dem::duration_text(estimates[i].seconds), estimates[i].from));
       ++plan.to_run;
       work += estimates[i].seconds;

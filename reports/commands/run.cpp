@@ -196,7 +196,8 @@ int run(const RunRequest& request) {
     std::vector<std::string> folders;
     for (std::size_t i = 0; i < studies.size(); ++i) {
       well = night.report(i, *outcomes_of, reporter) && well;
-      folders.push_back((std::filesystem::path(studies[i].folder()) / part_folder(request)).generic_string());
+      folders.push_back(part_folder(request).empty() ? studies[i].folder()
+                                                     : studies[i].folder() + "/" + part_folder(request));
     }
     failed = night.failed();
     end_night(request.night, request.output, folders, request.strict);

@@ -51,7 +51,7 @@ ReportOutcome make_report(StudyResult study, const ReportOptions& options, const
   written("summary.json", [&](const auto& path) { dem::write_file(path, summary_json(study, comparisons, drawn)); });
   ReportOptions shown = options;
   if (options.compare_with_reference) {
-    shown.since_reference = options.compare_with_reference(page(study, comparisons, drawn, options, Images::linked));
+    shown.since_reference = options.compare_with_reference(page(study, comparisons, drawn, options, Images::embedded));
   }
   if (options.html || options.pdf) {
     if (options.html) {

@@ -157,8 +157,12 @@ std::string StudyRow::verdict() const {
   text += fmt::format("{} of {} checks held", checks_held(), checks.size());
   if (!published.empty()) {
     text += fmt::format("; {} of {} published numbers met", count("met"), published.size());
-    for (const char* word : {"missed", "undecided"}) {
-      if (const std::size_t of_word = count(word); of_word > 0) text += fmt::format(", {} {}", of_word, word);
+    std::vector<std::string> words = {"met", "missed", "undecided"};
+    for (const PublishedOf& one : published) {
+      if (std::ranges::find(words, one.verdict) == words.end()) words.push_back(one.verdict);
+    }
+    for (std::size_t i = 1; i < words.size(); ++i) {
+      if (const std::size_t of_word = count(words[i]); of_word > 0) text += fmt::format(", {} {}", of_word, words[i]);
     }
   }
   if (!since.empty()) {

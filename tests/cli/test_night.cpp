@@ -158,13 +158,13 @@ TEST_CASE("a dry run says what would be simulated, and writes nothing") {
   const test::Outcome fresh = run(folder.path(), {"--dry-run"});
   CHECK(fresh.code == 0);
   CHECK(has(fresh.out, study + ": 4 of 4 cases to simulate, about "));
-  CHECK(has(fresh.out, ": simulated, no record; about "));
+  CHECK(has(fresh.out, ": to simulate, no record yet; about "));
   CHECK(has(fresh.out, "nothing was written"));
   CHECK(fs::is_empty(folder.path()));
   Accepted::copy(folder.path());
   CHECK(has(run(folder.path(), {"--dry-run"}).out, study + ": 0 of 4 cases to simulate"));
   CHECK(has(run(folder.path(), {"--dry-run", "--set", "rock.young_modulus=\"91 GPa\""}).out,
-            "simulated, rock.young_modulus: 90 GPa -> 91 GPa; about"));
+            "to simulate, rock.young_modulus: 90 GPa -> 91 GPa; about"));
 }
 
 TEST_CASE("progress as JSON: an object a line") {
