@@ -58,6 +58,7 @@ void read_summary(const fs::path& folder, StudyRow& row, std::vector<std::string
     row.checks.back().limit = check.at("limit").get<double>();
   }
   for (const Json& one : summary.at("comparisons")) {
+    if (one.value("role", "number") != "number") continue;  // other readings, fitted rows and theory do not count
     PublishedOf published{one.at("id").get<std::string>(), one.value("source", ""), one.value("verdict", "")};
     const std::string unit = one.value("unit", "");
     published.text =
@@ -155,7 +156,9 @@ std::string StudyRow::verdict() const {
     text += fmt::format("{} of {} cases failed; ", failed, cases.size());
   }
   text += fmt::format("{} of {} checks held", checks_held(), checks.size());
-  if (!published.empty()) {
+  if (!published.empty() && count("not judged") == published.size()) {
+    text += fmt::format("; none of {} published numbers judged at this scale", published.size());
+  } else if (!published.empty()) {
     text += fmt::format("; {} of {} published numbers met", count("met"), published.size());
     std::vector<std::string> words = {"met", "missed", "undecided"};
     for (const PublishedOf& one : published) {

@@ -80,14 +80,17 @@ std::string published_text(const Comparison& row) {
 std::string computed_text(const Comparison& row) {
   if (!row.computed) return "–";
   if (const auto* text = std::get_if<std::string>(&*row.computed)) return *text;
+  const double ours = std::get<double>(*row.computed);
   std::size_t digits = 3;
   if (const auto* published = std::get_if<double>(&row.published)) {
+    const bool whole = std::floor(*published) == *published && std::floor(ours) == ours;
+    if (whole && row.unit.empty()) return count(ours);
     const std::string text = shortest(*published);
     const auto figures =
         static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return c >= '0' && c <= '9'; }));
     if (std::abs(*published) >= 1) digits = std::max(digits, figures);
   }
-  return with_unit(number(std::get<double>(*row.computed), static_cast<int>(digits)), row.unit);
+  return with_unit(number(ours, static_cast<int>(digits)), row.unit);
 }
 
 std::string joined_notes(const std::vector<std::string>& notes) {
@@ -335,8 +338,10 @@ std::string missed_text(const Comparisons& comparisons) {
 
 namespace {
 
+// In the middle of a sentence; names of people keep their capital.
 std::string lower(std::string text) {
-  if (text.size() > 1 && text[0] >= 'A' && text[0] <= 'Z' && text[1] >= 'a' && text[1] <= 'z')
+  const bool of_a_person = text.find("’s ") != std::string::npos;
+  if (!of_a_person && text.size() > 1 && text[0] >= 'A' && text[0] <= 'Z' && text[1] >= 'a' && text[1] <= 'z')
     text[0] = static_cast<char>(text[0] - 'A' + 'a');
   return text;
 }
@@ -346,9 +351,11 @@ std::string headline(const StudyResult& study) {
   constexpr std::size_t most = 3;  // results of a test
   std::vector<std::string> tests;
   for (const auto& [test, group] : by_test(study)) {
-    const dem::Record& record = *group.front()->record;
+    auto results = group.front()->record->results;
+    std::ranges::stable_partition(results,
+                                  [](const auto& one) { return one.first.find("strength") != std::string::npos; });
     std::vector<std::string> said;
-    for (const auto& [id, value] : record.results) {
+    for (const auto& [id, value] : results) {
       const dem::Quantity& quantity = dem::find_quantity(study.quantities, id);
       if (quantity.kind != dem::QuantityKind::result || quantity.family() || quantity.of_size || !std::isfinite(value))
         continue;
@@ -366,8 +373,9 @@ std::string headline(const StudyResult& study) {
 }
 
 // Which figures agree with what is published, which do not.
-PageData agreement_parts(const std::vector<DrawnFigure>& figures) {
+PageData agreement_parts(const std::vector<DrawnFigure>& figures, const std::string& elsewhere) {
   PageData parts = new_list();
+  bool first = true;
   for (const auto& [agreement, what] : {std::pair{Agreement::agrees, "In agreement with what is published:"},
                                         {Agreement::disagrees, "In disagreement:"},
                                         {Agreement::undecided, "Undecided:"}}) {
@@ -385,7 +393,9 @@ PageData agreement_parts(const std::vector<DrawnFigure>& figures) {
       links.push_back(link);
     }
     PageData part;
-    part.set("what", what);
+    // At another scale the first words name it.
+    part.set("what", first && !elsewhere.empty() ? "At " + elsewhere + " scale, " + lower(what) : what);
+    first = false;
     part.set("links", links);
     parts.push_back(part);
   }
@@ -417,7 +427,7 @@ PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
   }
   if (std::ranges::any_of(figures, [](const DrawnFigure& f) { return f.agreement && !f.expected; })) {
     const bool judged = comparisons.scale.empty() || comparisons.scale == study.scenario->scale();
-    add(judged ? "" : "At this scale:", "plain", agreement_parts(figures));
+    add("", "plain", agreement_parts(figures, judged ? "" : study.scenario->scale()));
   }
   if (const std::string checks = checks_summary(study); !checks.empty())
     add(checks, checks_held(study) ? "good" : "bad");
@@ -503,7 +513,7 @@ std::string role_text(const Comparison& row, const std::vector<Comparison>& rows
       std::vector<std::string> names;
       for (const std::string& id : row.of) {
         const auto other = std::ranges::find(rows, id, &Comparison::id);
-        if (other != rows.end()) names.push_back(other->quantity);
+        if (other != rows.end()) names.push_back("“" + other->quantity + "”");
       }
       return "Not counted: follows from " + (names.empty() ? "others" : listed(names)) + ".";
     }

@@ -81,28 +81,30 @@ void Tally::add(Role role, Verdict verdict) {
 }
 
 std::string tally_text(const Tally& counts, std::string_view scale) {
-  std::vector<std::string> parts;
-  const auto say = [&](int number, std::string_view what, bool always = false) {
-    if (number == 0 && !always) return;
-    const std::string verb = parts.empty() ? (number == 1 ? "is " : "are ") : "";
-    parts.push_back(fmt::format("{} {}{}", number == 0 ? "none" : std::to_string(number), verb, what));
-  };
-  const bool judged = counts.met + counts.missed + counts.undecided > 0;
-  say(counts.met, "met", judged);
-  say(counts.missed, "missed");
-  say(counts.undecided, "undecided");
-  say(counts.not_judged, "not judged");
-  say(counts.not_computed, "not computed");
+  const int all = counts.numbers();
   std::string text;
-  if (counts.numbers() > 0) {
-    text = fmt::format("Of {} published number{} and trend{} {}.", counts.numbers(), counts.numbers() == 1 ? "" : "s",
-                       counts.numbers() == 1 ? "" : "s", listed(parts));
+  if (all > 0 && counts.not_judged == all) {
+    text = fmt::format("None of {} published numbers and trends is judged: they belong to the scale “{}”.", all, scale);
+  } else if (all > 0) {
+    std::vector<std::string> parts;
+    const auto say = [&](int number, std::string_view what, bool always = false) {
+      if (number == 0 && !always) return;
+      const std::string verb = !parts.empty() ? "" : number > 1 ? "are " : "is ";
+      parts.push_back(fmt::format("{} {}{}", number == 0 ? "none" : std::to_string(number), verb, what));
+    };
+    say(counts.met, "met", counts.missed + counts.undecided > 0);
+    say(counts.missed, "missed");
+    say(counts.undecided, "undecided");
+    say(counts.not_judged, fmt::format("not judged (scale “{}”)", scale));
+    say(counts.not_computed, "not computed");
+    text = all == 1 ? fmt::format("Of one published number {}.", listed(parts))
+                    : fmt::format("Of {} published numbers and trends {}.", all, listed(parts));
   }
-  if (counts.not_judged > 0) text += fmt::format(" The published numbers belong to the scale “{}”.", scale);
   std::vector<std::string> apart;
   if (counts.fitted > 0) apart.push_back(fmt::format("{} to which a choice was fitted", counts.fitted));
-  if (counts.theory > 0)
+  if (counts.theory > 0) {
     apart.push_back(fmt::format("{} that compare{} theory with theory", counts.theory, counts.theory == 1 ? "s" : ""));
+  }
   if (!apart.empty()) text += (text.empty() ? "Counted apart: " : " Counted apart: ") + listed(apart) + ".";
   return text;
 }

@@ -58,7 +58,7 @@ struct Tally {
   void add(Role role, Verdict verdict);
 };
 
-/// "Of 23 published numbers 12 are met, 5 missed and 6 undecided. ..." in whole sentences; `scale`: of the published numbers.
+/// "Of 23 published numbers and trends 12 are met, 5 missed and 6 undecided. ..."; `scale`: of the published numbers.
 std::string tally_text(const Tally& counts, std::string_view scale);
 
 }  // namespace reports

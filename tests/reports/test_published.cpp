@@ -173,13 +173,14 @@ TEST_CASE("only published numbers count as met or missed") {
   CHECK(counts.fitted == 5);
   CHECK(counts.theory == 5);
   CHECK(reports::tally_text(counts, "paper") ==
-        "Of 5 published numbers and trends 1 is met, 1 missed, 1 undecided, 1 not judged and 1 not computed. The "
-        "published numbers belong to the scale “paper”. Counted apart: 5 to which a choice was fitted and 5 that "
-        "compare theory with theory.");
+        "Of 5 published numbers and trends 1 is met, 1 missed, 1 undecided, 1 not judged (scale “paper”) and 1 not "
+        "computed. Counted apart: 5 to which a choice was fitted and 5 that compare theory with theory.");
   CHECK(reports::tally_text({.met = 0, .missed = 0, .undecided = 0, .not_judged = 3}, "paper") ==
-        "Of 3 published numbers and trends 3 are not judged. The published numbers belong to the scale “paper”.");
+        "None of 3 published numbers and trends is judged: they belong to the scale “paper”.");
   CHECK(reports::tally_text({.met = 0, .missed = 2}, "paper") ==
-        "Of 2 published numbers and trends none are met and 2 missed.");
+        "Of 2 published numbers and trends none is met and 2 missed.");
+  CHECK(reports::tally_text({.met = 2}, "paper") == "Of 2 published numbers and trends 2 are met.");
+  CHECK(reports::tally_text({.met = 1}, "paper") == "Of one published number 1 is met.");
 }
 
 constexpr const char* falls =

@@ -260,18 +260,21 @@ FigureContent input_parameters(const StudyResult& study) {
   row("particles", "smallest radius", "R_min", shortest(1e3 * s.real("packing.minimum_radius")) + " mm");
   row("particles", "largest over smallest radius", "R_max/R_min", shortest(s.real("packing.radius_ratio")));
   row("particles", "modulus while packing", "E*", shortest(1e-9 * s.real("packing.modulus")) + " GPa");
-  row("particles", "material pressure over modulus (not in the paper)", "", shortest(s.real("packing.pressure_ratio")));
+  row("particles",
+      study.of_a_paper ? "material pressure over modulus (not in the paper)" : "material pressure over modulus", "",
+      shortest(s.real("packing.pressure_ratio")));
   row("interaction", "modulus", "α_E", shortest(s.real("interaction.modulus")));
   row("interaction", "stiffness ratio", "α_k", shortest(s.real("interaction.stiffness_ratio")));
   row("interaction", "friction", "α_μ", shortest(s.real("interaction.friction")));
   row("interaction", "tensile strength", "α_t", shortest(s.real("interaction.tensile_strength")));
   row("interaction", "cohesion", "α_C", shortest(s.real("interaction.cohesion")));
   row("interaction", "friction angle", "α_φ", shortest(s.real("interaction.friction_angle")));
-  content.panels.push_back({.id = "common",
-                            .caption = "Parameters of the specimen (Tables 1 and 4).",
-                            .alt = "",
-                            .content = common,
-                            .per_row = 1});
+  content.panels.push_back(
+      {.id = "common",
+       .caption = study.of_a_paper ? "Parameters of the specimen (Tables 1 and 4)." : "Parameters of the specimen.",
+       .alt = "",
+       .content = common,
+       .per_row = 1});
 
   TextTable by_mineral{{"Material"}, {}};
   for (std::size_t m = 0; m < minerals; ++m) by_mineral.head.push_back(s.text(fmt::format("mineral[{}].name", m)));
@@ -292,8 +295,11 @@ FigureContent input_parameters(const StudyResult& study) {
   add("tensile strength σ_t,b (MPa)", "tensile_strength", 1e-6);
   add("cohesion C_b (MPa)", "cohesion", 1e-6);
   add("friction angle φ_b (°)", "friction_angle", 180 / std::numbers::pi);
-  content.panels.push_back(
-      {.id = "minerals", .caption = "Materials (Table 4).", .alt = "", .content = by_mineral, .per_row = 1});
+  content.panels.push_back({.id = "minerals",
+                            .caption = study.of_a_paper ? "Materials (Table 4)." : "Materials.",
+                            .alt = "",
+                            .content = by_mineral,
+                            .per_row = 1});
 
   // Table 2: what laboratories measured; the calibration aims at it, nothing here is fitted to it.
   TextTable laboratory{{"Lac du Bonnet granite in the laboratory", "Value"}, {}};

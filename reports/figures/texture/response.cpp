@@ -38,6 +38,12 @@ struct Level {
   double stress = 0, strain = 0;  ///< MPa, %
 };
 
+// "σ_{ci}" of a chart as "σci".
+std::string in_prose(std::string symbol) {
+  std::erase_if(symbol, [](char c) { return c == '_' || c == '{' || c == '}'; });
+  return symbol;
+}
+
 std::vector<Level> levels_of(const dem::Record& record) {
   const dem::Table& history = record.table("history");
   std::vector<Level> levels;
@@ -441,13 +447,14 @@ FigureContent progressive_failure(const StudyResult& study) {
   const dem::Record& base = *cases.front().record;
   std::vector<std::string> said;
   for (const Level& one : levels_of(base)) {
-    said.push_back(fmt::format("{} {} MPa at {} % strain", one.symbol, number(one.stress, 4), number(one.strain, 3)));
+    said.push_back(
+        fmt::format("{} {} MPa at {} % strain", in_prose(one.symbol), number(one.stress, 4), number(one.strain, 3)));
   }
   const std::string found = said.empty() ? "no characteristic stress was found" : joined(said, ", ");
   content.panels.push_back(
       {.id = "stress",
-       .caption =
-           "Axial stress, volumetric and lateral strain (contraction positive), with our and the published levels.",
+       .caption = std::string("Axial stress, volumetric and lateral strain (contraction positive), with our ") +
+                  (study.of_a_paper ? "and the published levels." : "levels."),
        .alt = "Stress, volumetric and lateral strain against axial strain: " + found + ".",
        .content = stress_and_strains(study, base),
        .per_row = 1});

@@ -176,10 +176,11 @@ FigureContent specimen(const StudyResult& study) {
          .per_row = 4});
   }
   const Size size = size_of(base);
-  content.finding = fmt::format("{} particles in {} grains, {:g} mm × {:g} mm; at {}, {} of the particles.",
-                                count(static_cast<double>(base.table("particles").rows())),
-                                count(static_cast<double>(base.table("grains").rows())), 1e3 * size.diameter,
-                                1e3 * size.height, cases.front().label, shares);
+  content.finding =
+      fmt::format("{} particles in {} grains, {:g} mm × {:g} mm. By number of particles, the specimen of {} is {}.",
+                  count(static_cast<double>(base.table("particles").rows())),
+                  count(static_cast<double>(base.table("grains").rows())), 1e3 * size.diameter, 1e3 * size.height,
+                  cases.front().label, shares);
   return content;
 }
 
