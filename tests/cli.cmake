@@ -17,7 +17,7 @@ set_tests_properties(test_launcher PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
 # Pages of smoke reports as Chromium shows and prints them, looked at by axe-core. Exit code 77: one of them is not to be had.
 add_test(NAME test_pages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/page/run $<TARGET_FILE:dem-report>
                                  ${CMAKE_CURRENT_BINARY_DIR}/pages)
-set_tests_properties(test_pages PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
+set_tests_properties(test_pages PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200)
 
 # All scenarios at smoke scale against what was accepted. Exit code 77: there are no references.
 add_test(NAME test_references

@@ -60,6 +60,13 @@ std::vector<LegendEntry> counts_of(std::vector<LegendEntry> legend) {
 /// No picture is printed higher, mm: rows that high leave no page a third empty.
 constexpr double highest_picture = 74;
 
+/// In mm. Charts are drawn for their width in print, so that their text has its size there; a scene is as wide as its place,
+/// up to that height.
+double print_width(const DrawnPanel& panel) {
+  if (!panel.image.ends_with(".png")) return panel.width * render::column_mm / render::column_width;
+  return panel.height > 0 ? highest_picture * panel.width / panel.height : 0;
+}
+
 /// A download of a panel. A picture that is on the page already is not there twice.
 struct Download {
   std::string file, kind;
@@ -98,9 +105,8 @@ PageData panel_data(const DrawnPanel& panel, const std::string& figure, const st
   data.set("shape", panel.height > panel.width * 3 / 2 ? "tall" : "wide-shape");
   if (!panel.image.empty()) {
     data.set("image", folder.empty() ? panel.image : data_uri(folder / panel.image));
-    const bool scene = panel.image.ends_with(".png") && panel.height > 0;
-    data.set("has_print_width", scene);
-    data.set("print_width", fmt::format("{:.1f}", scene ? highest_picture * panel.width / panel.height : 0));
+    data.set("has_print_width", panel.width > 0 && panel.height > 0);
+    data.set("print_width", fmt::format("{:.1f}", print_width(panel)));
     data.set("has_size", panel.width > 0);
     data.set("width", std::to_string(panel.width));
     data.set("height", std::to_string(panel.height));

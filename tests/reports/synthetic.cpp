@@ -429,7 +429,8 @@ dem::Record direct_tension(double aspect_ratio, const Options& options) {
   return record;
 }
 
-dem::Scenario scenario(const std::filesystem::path& folder, const std::string& name, const std::string& more) {
+dem::Scenario scenario(const std::filesystem::path& folder, const std::string& name, const std::string& more,
+                       const std::string& scale) {
   const std::filesystem::path file = folder / (name + ".toml");
   dem::write_file(file,
                   "model = \"grain_texture\"\ntitle = \"Grains of aspect ratio 1, 2 and 3 in Lac du Bonnet granite\"\n"
@@ -437,8 +438,9 @@ dem::Scenario scenario(const std::filesystem::path& folder, const std::string& n
                   "include = \"" DEM_SOURCE_DIR
                   "/scenarios/rocks/lac_du_bonnet.toml\"\n"
                   "tests = [\"compression\", \"direct_tension\"]\n" +
-                      more + "\n[specimen]\ndiameter = \"20 mm\"\nheight = \"40 mm\"\n[scales.draft]\n");
-  return dem::Scenario::read(file.string(), "draft", {}, [](std::string_view) { return dem::texture::keys(); });
+                      more +
+                      "\n[specimen]\ndiameter = \"20 mm\"\nheight = \"40 mm\"\n[scales.draft]\n[scales.paper]\n");
+  return dem::Scenario::read(file.string(), scale, {}, [](std::string_view) { return dem::texture::keys(); });
 }
 
 namespace {

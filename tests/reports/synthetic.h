@@ -40,6 +40,6 @@ reports::StudyResult study_of(const dem::Scenario& scenario, const std::vector<d
 
 /// A scenario of the grain texture model with the common keys only.
 dem::Scenario scenario(const std::filesystem::path& folder, const std::string& name = "ldb_aspect_ratio",
-                       const std::string& more = "");
+                       const std::string& more = "", const std::string& scale = "draft");
 
 }  // namespace synthetic

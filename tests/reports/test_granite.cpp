@@ -30,7 +30,7 @@ struct Made {
   std::vector<dem::Record> records;
 
   explicit Made(const std::string& name, const std::string& more = "")
-      : scenario(synthetic::scenario(scratch.path(), name, more)) {}
+      : scenario(synthetic::scenario(scratch.path(), name, more, "paper")) {}  // numbers are judged at this scale
 
   static const dem::Record& pattern() {
     static const dem::Record record = synthetic::compression(1, small);
@@ -150,8 +150,8 @@ TEST_CASE("a plateau that the start of the platens leaves uneven is told") {
     set_table(made.records.back(), history);
   }
   const std::string finding = reports::texture::confinement_curves(made.study()).finding;
-  CHECK(has(finding, "more than the 2 % that are looked for"));
-  CHECK(has(finding, "at σ₃ 10 MPa (± 4.8 %):"));
+  CHECK(has(finding, "more than the 2 % that mark initiation"));
+  CHECK(has(finding, "At σ₃ 10 MPa (± 4.8 %) the stiffness"));
 }
 
 TEST_CASE("stresses after the peak are compared at one strain after it, as far as the shortest test goes") {
@@ -265,7 +265,7 @@ TEST_CASE("repeats give means, error bars and trends over all seeds") {
             "rises by"));
   CHECK(has(reports::trend_words(cases, reports::shown(quantity::young_modulus), "GPa",
                                  dem::texture::parameter::confining_pressure),
-            "no trend"));
+            "no clear trend"));
 }
 
 TEST_CASE("published numbers of the granite are compared with fits, means and trends") {

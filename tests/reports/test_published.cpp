@@ -179,7 +179,7 @@ TEST_CASE("only published numbers count as met or missed") {
   CHECK(reports::tally_text({.met = 0, .missed = 0, .undecided = 0, .not_judged = 3}, "paper") ==
         "Of 3 published numbers and trends 3 are not judged. The published numbers belong to the scale “paper”.");
   CHECK(reports::tally_text({.met = 0, .missed = 2}, "paper") ==
-        "Of 2 published numbers and trends none is met and 2 missed.");
+        "Of 2 published numbers and trends none are met and 2 missed.");
 }
 
 constexpr const char* falls =

@@ -312,7 +312,7 @@ TEST_CASE("a case that is stopped goes on from its checkpoint to the same bytes"
   SUBCASE("goes on") {
     bench.run();
     CHECK(seen.first_step["count_2"] == 4);
-    CHECK(bench.why.at("count_2") == "no record; goes on from its checkpoint");
+    CHECK(bench.why.at("count_2") == "no record yet; goes on from its checkpoint");
     CHECK(dem::read_file(bench.record("count_2")) == expected);
   }
   SUBCASE("damaged: from the start, and said") {
@@ -441,8 +441,8 @@ TEST_CASE("two cases that are stopped together both go on from their checkpoints
   }
   CHECK_FALSE(fs::exists(bench.record("count_3").parent_path()));
   CHECK(states(bench.run()) == std::vector{simulated, simulated, simulated});
-  CHECK(bench.why.at("count_1") == "no record; goes on from its checkpoint");
-  CHECK(bench.why.at("count_2") == "no record; goes on from its checkpoint");
+  CHECK(bench.why.at("count_1") == "no record yet; goes on from its checkpoint");
+  CHECK(bench.why.at("count_2") == "no record yet; goes on from its checkpoint");
   CHECK(std::max(seen.first_step["count_1"], seen.first_step["count_2"]) == 4);
   for (const char* id : {"count_1", "count_2", "count_3"}) {
     CHECK(dem::read_file(bench.record(id)) == dem::read_file(uncut.record(id)));

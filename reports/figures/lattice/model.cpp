@@ -231,9 +231,8 @@ FigureContent parameters(const StudyResult& study) {
   content.statement =
       "The parameters of the elements follow from the properties of quartzite by the conversion formulas of Appendix "
       "B.";
-  content.rows = {"elastic_kn",  "elastic_ks",  "elastic_xb",  "elastic_fs0",  "elastic_mup",
-                  "strength_kn", "strength_ks", "strength_xb", "strength_fs0", "strength_mup",
-                  "energy_kn",   "energy_ks",   "energy_xb",   "energy_fs0",   "energy_mup"};
+  content.rows = {"elastic_kn",   "elastic_ks", "strength_kn", "strength_ks", "strength_xb", "strength_fs0",
+                  "strength_mup", "energy_kn",  "energy_ks",   "energy_xb",   "energy_fs0",  "energy_mup"};
   const dem::Record* r = any_record(study);
   if (!r || !study.scenario) return content;
   const dem::Scenario& s = *study.scenario;

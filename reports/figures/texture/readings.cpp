@@ -68,18 +68,19 @@ std::vector<double> ratios(const Reading& reading) {
   return found;
 }
 
+constexpr std::size_t most_curves = 4;  // that can be told apart where they lie over each other
+
 render::Chart curves(const std::vector<Reading>& readings) {
   render::Chart chart;
   chart.x.title = "Axial strain (%)";
   chart.left.title = "Axial stress (MPa)";
-  constexpr std::array lines{render::Line::solid, render::Line::dash, render::Line::dot};
-  for (std::size_t k = 0; k < readings.size(); ++k) {
+  for (std::size_t k = 0; k < std::min(most_curves, readings.size()); ++k) {
     if (readings[k].compression.empty()) continue;
     render::Series series =
         curve(readings[k].compression.front()->table("history"), {"axial_strain", "axial_stress", 100, 1e-6});
     series.label = readings[k].label;
     series.colour = render::palette(k);
-    series.line = lines[k % lines.size()];
+    series.line = render::line_style(k);
     chart.series.push_back(std::move(series));
   }
   chart.legend = render::Chart::Legend::below;
@@ -151,11 +152,12 @@ FigureContent open_readings(const StudyResult& study) {
        .alt = "",
        .content = table,
        .per_row = 1});
-  content.panels.push_back({.id = "stress_strain",
-                            .caption = "Stress and strain in uniaxial compression, the first seed.",
-                            .alt = "Stress-strain curves of each reading; their peaks are in the table.",
-                            .content = curves(found),
-                            .per_row = 1});
+  content.panels.push_back(
+      {.id = "stress_strain",
+       .caption = "Stress and strain in uniaxial compression: the first four readings of the table, their first seed.",
+       .alt = "Stress-strain curves of each reading; their peaks are in the table.",
+       .content = curves(found),
+       .per_row = 1});
   std::vector<double> least_and_most;
   for (const Reading& reading : found) {
     for (const double value : values(reading.compression, quantity::compressive_strength))
