@@ -13,6 +13,12 @@ std::vector<double> dash_pattern(Line line) {
       return {1.2, 2};
     case Line::dash_dot:
       return {6, 2.2, 1.2, 2.2};
+    case Line::long_dash:
+      return {11, 3};
+    case Line::dash_dot_dot:
+      return {6, 2, 1.2, 2, 1.2, 2};
+    case Line::short_dash:
+      return {2.6, 1.6};
     case Line::none:
     case Line::solid:
       break;

@@ -24,7 +24,8 @@ Colour ordered(std::size_t index, std::size_t count) {
 }
 
 Line line_style(std::size_t index) {
-  static constexpr std::array lines{Line::solid, Line::dash, Line::dash_dot, Line::dot};
+  static constexpr std::array lines{Line::solid,     Line::dash,         Line::dash_dot,  Line::dot,
+                                    Line::long_dash, Line::dash_dot_dot, Line::short_dash};
   return lines[index % lines.size()];
 }
 

@@ -11,7 +11,7 @@ struct Colour {
   double red = 0, green = 0, blue = 0;  ///< 0 ... 1
 };
 
-enum class Line { none, solid, dash, dot, dash_dot };
+enum class Line { none, solid, dash, dot, dash_dot, long_dash, dash_dot_dot, short_dash };
 enum class Marker { none, circle, square, diamond, triangle, cross };
 enum class Pattern { none, rising, falling };  ///< hatching of a filled shape
 
@@ -21,7 +21,7 @@ Colour palette(std::size_t index);
 /// Fills of an ordered series, from light to dark, as far apart in grey as `count` allows; four
 /// are 15 apart (CIEDE2000).
 Colour ordered(std::size_t index, std::size_t count);
-/// The line that goes with it: solid, dash, dash-dot, dot, then from the start.
+/// The line that goes with it, as many as there are colours.
 Line line_style(std::size_t index);
 Marker marker_style(std::size_t index);
 

@@ -97,7 +97,11 @@ render::Chart heats(const dem::Record& r, double from, double to, double zero,
       styled(window(h, "breaking_heat_shear", from, to, zero, unit.factor), "breaking, shear", 1, render::Line::dot),
       styled(window(h, "frictional_heat", from, to, zero, unit.factor), "frictional", 2, render::Line::dash_dot)};
   for (const auto& [time, label] : marks) chart.marks.push_back(upright(1e6 * (time - zero), label));
-  add_published(chart, render::Mark::Kind::vertical, published_end, "published " + marks.back().second);
+  const double last = 1e6 * (to - zero);
+  if (published_end < 4 * last) {
+    add_published(chart, render::Mark::Kind::vertical, published_end, "published " + marks.back().second);
+    chart.x.high = 1.05 * std::max(last, published_end);
+  }
   chart.legend = render::Chart::Legend::below;
   chart.height = 360;
   return chart;
@@ -252,8 +256,10 @@ FigureContent energy_tension(const StudyResult& study) {
     const double after = std::max(2.5 * (m.b2 - m.d1), 4e-6);
     inset.series = energies(h, m.d1 - 0.3 * after, m.d1 + after, m.d1, unit.factor);
     inset.marks = {upright(0, "B₁"), upright(1e6 * (m.b2 - m.d1), "B₂")};
-    add_published(chart, render::Mark::Kind::vertical, 1e4 * study.published_value("failure_time_springs"),
-                  "published B₁");  // in 10⁻² s
+    const double published_time = 1e4 * study.published_value("failure_time_springs");  // µs, of 10⁻² s
+    // A block of another size parts at another time: far off, the published one would press ours to the edge.
+    if (published_time < 1.5e6 * h.real("time").back())
+      add_published(chart, render::Mark::Kind::vertical, published_time, "published B₁");
     const double share = study.published_value("kinetic_share_springs");
     add_published(chart, render::Mark::Kind::horizontal, 0.01 * share * unit.factor * value_at(h, {"work"}, m.d1),
                   fmt::format("published largest kinetic energy, {} %", number(share, 3)));

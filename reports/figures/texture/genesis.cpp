@@ -13,12 +13,12 @@
 namespace reports::texture {
 namespace {
 
-constexpr int narrow = 320;                         // px, of pictures beside each other
-const render::Colour gap_colour{0.99, 0.99, 0.99};  // the paper's white balls
+constexpr int narrow = 320;                            // px, of pictures beside each other
+const render::Colour gap_colour = render::palette(0);  // white, as in the paper, is too near the light minerals
 const render::Colour grey{0.80, 0.82, 0.84};
 const render::Colour joint_colour = render::palette(0), bond_colour = render::palette(2);  // as the paper's Fig. 5h
 
-// Particles after `round` rounds of growth: those without a grain yet are white.
+// Particles after `round` rounds of growth: those without a grain yet have a colour of their own.
 render::Spheres after_round(const StudyResult& study, const dem::Record& record, std::int32_t round) {
   render::Spheres spheres = particles_by_mineral(study, record);
   const auto claimed = record.table("particles").integer("growth_round");
@@ -72,6 +72,17 @@ std::array<render::Point, 2> window(const dem::Record& record) {
   const Size size = size_of(record);
   const double half = std::min(4.5 * mean, 0.5 * size.diameter), middle = size.z_low + 0.5 * size.height;
   return {{{-half, -half, middle - half}, {half, half, middle + half}}};
+}
+
+/// Of thin lines on white, for which the minerals are too light: six, apart for every reader and in grey.
+render::Colour line_colour(std::size_t group) {
+  constexpr std::array<render::Colour, 6> colours{{{0.459, 0.353, 0.008},
+                                                   {0.898, 0.455, 0.145},
+                                                   {0.224, 0.486, 0.718},
+                                                   {0.188, 0.129, 0.388},
+                                                   {0.545, 0.020, 0.239},
+                                                   {0.043, 0.031, 0.000}}};
+  return colours[group % colours.size()];
 }
 
 /// Contacts whose middle lies near the section y = 0, as lines between the centres.
@@ -143,11 +154,11 @@ FigureContent genesis_steps(const StudyResult& study) {
        .label = count(particles) + " particles",
        .legend = {}});
   add("masked", "Masked by ellipsoids.",
-      percent(gaps / particles) + " of the particles are in no ellipsoid and drawn white.",
+      percent(gaps / particles) + " of the particles are in no ellipsoid and drawn in blue.",
       {.scene = scene_of(study, *record, after_round(study, *record, 0), false),
        .label = count(gaps) + " gap particles",
        .legend = with_gaps(study, *record)});
-  add("masked_section", "Masked specimen, cut along the axis.", "White gap particles lie between the grains.",
+  add("masked_section", "Masked specimen, cut along the axis.", "Gap particles, in blue, lie between the grains.",
       {.scene = scene_of(study, *record, after_round(study, *record, 0), true),
        .label = "section",
        .legend = with_gaps(study, *record)});
@@ -220,8 +231,7 @@ FigureContent genesis_contacts(const StudyResult& study) {
   const auto kind = record->table("contacts").integer("kind");
   const auto names = minerals_of(*record);
   std::vector<render::Colour> colours;
-  // Thin lines on white: the colours of the minerals are too light for them.
-  for (std::size_t k = 0; k < names.size() + 2; ++k) colours.push_back(render::palette(k));
+  for (std::size_t k = 0; k < names.size() + 2; ++k) colours.push_back(line_colour(k));
   const ContactLines groups = contact_lines(*record, colours, [&](std::size_t, std::size_t i, std::size_t j) {
     if (grain[i] == grain[j]) return static_cast<std::size_t>(mineral[i]);
     return names.size() + (mineral[i] == mineral[j] ? 0 : 1);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "engine/analysis/envelopes.h"
 #include "reports/figures/table.h"
@@ -163,7 +164,7 @@ FigureContent mineral_envelopes(const StudyResult& study) {
   chart.left.title = "Peak axial stress σ₁ (MPa)";
   chart.left.low = 0;
   std::vector<std::string> said;
-  bool explained = false;
+  std::optional<std::size_t> last_published;  // one key for the dashed lines of all minerals, after theirs
   std::size_t index = 0;
   for (const std::string& mineral : minerals_tested(study)) {
     const analysis::Envelopes found = envelopes_of(study, mineral);
@@ -190,13 +191,11 @@ FigureContent mineral_envelopes(const StudyResult& study) {
     if (high > 0) {
       const std::size_t before = chart.series.size();
       line(render::Line::dash, [&](double x) { return analysis::hoek_brown(x, theirs.ucs, theirs.m, 1); });
-      if (!explained && chart.series.size() > before) {
-        chart.series.back().label = "published (Table 3)";
-        explained = true;
-      }
+      if (chart.series.size() > before) last_published = before;
     }
   }
   if (chart.series.empty()) return content;
+  if (last_published) chart.series[*last_published].label = "published (Table 3)";
   chart.legend = render::Chart::Legend::below;
   chart.height = 380;
   const std::string fits =
