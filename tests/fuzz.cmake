@@ -25,9 +25,9 @@ endfunction()
 
 find_package(OpenSSL REQUIRED)
 find_package(tomlplusplus REQUIRED)
-dem_fuzz(scenario 1500 LIBRARIES dem_study dem_models tomlplusplus::tomlplusplus SOURCES
+dem_fuzz(scenario 10000 LIBRARIES dem_study dem_models tomlplusplus::tomlplusplus SOURCES
          core/files.cpp core/text.cpp scenario/convert.cpp scenario/keys.cpp scenario/reader.cpp scenario/scenario.cpp
          scenario/suggest.cpp scenario/units.cpp)
-dem_fuzz(elle 30000 LIBRARIES dem_sheet SOURCES core/files.cpp core/text.cpp sheet/elle.cpp sheet/grains.cpp)
+dem_fuzz(elle 70000 LIBRARIES dem_sheet SOURCES core/files.cpp core/text.cpp sheet/elle.cpp sheet/grains.cpp)
 dem_fuzz(records 5000 LIBRARIES dem_store ${DEM_HDF5_LIBRARY} OpenSSL::Crypto SOURCES core/archive.cpp core/files.cpp
          core/hash.cpp core/record.cpp store/store.cpp)
