@@ -183,10 +183,10 @@ TEST_CASE("verdicts read stresses after the peak and directions of cracks from t
     return *found;
   };
   const auto after = row("trend_stress_after_peak_with_pressure"), angle = row("trend_crack_angle_with_pressure");
-  CHECK(after.verdict == reports::Verdict::not_judged);  // made at draft scale
+  CHECK(after.verdict == reports::Verdict::met);
   CHECK(after.outcome == reports::Verdict::met);
   CHECK(has(after.detail, "0.4000 → 0.5000 → 0.8000; not run: 5, 20, 60"));
-  CHECK(angle.verdict == reports::Verdict::not_judged);  // made at draft scale
+  CHECK(angle.verdict == reports::Verdict::missed);
   CHECK(angle.outcome == reports::Verdict::missed);
   CHECK(has(angle.detail, "50.00 → 40.00 → 10.00; not run: 5, 20, 60"));
 }
@@ -286,14 +286,14 @@ TEST_CASE("published numbers of the granite are compared with fits, means and tr
   }
   const auto rows = rows_of(made.study());
   const auto m = row(rows, "envelope_peak_m");
-  CHECK(m.verdict == reports::Verdict::not_judged);  // made at draft scale
+  CHECK(m.verdict == reports::Verdict::met);
   CHECK(m.outcome == reports::Verdict::met);
   CHECK(has(m.detail, "95 % interval"));
   const auto ucs = row(rows, "ucs_ar_1");
   CHECK(std::get<double>(*ucs.computed) == Approx(206));
   CHECK(has(ucs.detail, "mean of 2 seeds"));
   const auto residual = row(rows, "trend_residual_with_pressure");
-  CHECK(residual.verdict == reports::Verdict::not_judged);  // made at draft scale
+  CHECK(residual.verdict == reports::Verdict::met);
   CHECK(residual.outcome == reports::Verdict::met);
   CHECK(has(residual.detail, "not run: 5, 20, 60"));
   CHECK(has(residual.detail, "p = "));
