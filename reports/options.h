@@ -10,12 +10,18 @@
 
 namespace reports {
 
+/// A file that a report is made from: where it goes below the program's folder, and whether it comes with the program.
+struct InputFile {
+  std::string path;  ///< "scenarios/ldb_texture.toml", "mine.toml"; "": none
+  bool shipped = false;
+};
+
 /// How a report is made again, without paths of this machine: from the program's folder.
 struct Again {
-  std::string command;               ///< one line: "./dem-report scenarios/ldb_texture.toml --scale smoke"
-  bool scenario_is_shipped = false;  ///< it lies in the program's folder; else it must be saved there first
-  bool rock_is_shipped = false;      ///< the same of the file that it includes
-  std::string needs;                 ///< a file that must lie there as well (an Elle file); "": none
+  std::string command;  ///< one line: "./dem-report scenarios/ldb_texture.toml --scale smoke"
+  InputFile scenario;   ///< one that is not shipped must be saved there first
+  InputFile rock;       ///< the file that it includes; the same
+  std::string needs;    ///< a file that must lie there as well (an Elle file); "": none
 };
 
 /// What the page says at its top of what changed since a reference, in HTML: on the screen, and in print.

@@ -54,7 +54,7 @@ fs::path shipped_scenarios(const fs::path& assets) {
 reports::Again how_again(const RunRequest& request, const dem::Scenario& scenario, const fs::path& shipped) {
   const Place study = place_of(scenario.file(), shipped, {});
   reports::Again again;
-  again.scenario_is_shipped = study.shipped;
+  again.scenario = {study.path.string(), study.shipped};
   again.command = "./dem-report " + shell_quoted(study.path.string());
   if (request.scale != "draft") again.command += " --scale " + request.scale;
   bool another_rock = !study.shipped, another_map = false;
@@ -67,8 +67,9 @@ reports::Again how_again(const RunRequest& request, const dem::Scenario& scenari
         key == "seed" ? " --seed " + override.substr(override.find('=') + 1) : " --set " + shell_quoted(override);
   }
   if (!scenario.included().empty()) {
-    const Place rock = place_of(scenario.included(), shipped, "rocks");
-    again.rock_is_shipped = rock.shipped;
+    Place rock = place_of(scenario.included(), shipped, "rocks");
+    if (rock.path == study.path) rock.path = "rock_" + rock.path.string();  // both are saved in one folder
+    again.rock = {rock.path.string(), rock.shipped};
     if (another_rock) again.command += " --set " + shell_quoted("include=" + quoted(rock.path));
   }
   // A map is named from the folder of its scenario.

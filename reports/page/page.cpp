@@ -144,17 +144,18 @@ void set_citations(PageData& data, const StudyResult& study, const ReportOptions
 void set_again(PageData& data, const dem::Scenario& scenario, const Again& again) {
   PageData sources{PageData::type::list};
   std::vector<std::string> saved;
-  for (const auto& [file, shipped] :
-       {std::pair{scenario.file(), again.scenario_is_shipped}, std::pair{scenario.included(), again.rock_is_shipped}}) {
+  for (const auto& [file, place] :
+       {std::pair{scenario.file(), again.scenario}, std::pair{scenario.included(), again.rock}}) {
     if (!std::filesystem::exists(file)) continue;
     const std::string text = dem::read_file(file);
+    const std::string name = place.path.empty() ? std::filesystem::path(file).filename().string() : place.path;
     PageData source;
-    const std::string name = std::filesystem::path(file).filename().string();
     source.set("name", name);
+    source.set("file", std::filesystem::path(name).filename().string());
     source.set("text", with_short_words(text));
     source.set("href", data_uri(text, "x.toml"));
     sources.push_back(source);
-    if (!shipped) saved.push_back(name);
+    if (!place.shipped) saved.push_back(name);
   }
   data.set("sources", sources);
   data.set("command", again.command);

@@ -155,8 +155,8 @@ TEST_CASE("the command that makes a report again works in a clone and names no f
         "./dem-report scenarios/ldb_minerals.toml");
   CHECK(again(shipped, {"--scale", "smoke", "--set", "specimen.diameter=\"10 mm\"", "--seed", "3"}).command ==
         "./dem-report scenarios/ldb_minerals.toml --scale smoke --set 'specimen.diameter=\"10 mm\"' --seed 3");
-  CHECK(again(shipped).scenario_is_shipped);
-  CHECK(again(shipped).rock_is_shipped);
+  CHECK(again(shipped).scenario.shipped);
+  CHECK(again(shipped).rock.shipped);
   // From any folder, and by a path that goes up and down.
   CHECK(again(DEM_SOURCE_DIR "/tests/../scenarios/ldb_minerals.toml").command == again(shipped).command);
 
@@ -172,15 +172,23 @@ TEST_CASE("the command that makes a report again works in a clone and names no f
   const reports::Again own = again(copy, {"--case", "compression_quartz", "--only", "mineral_properties"});
   CHECK(own.command == "./dem-report ldb_minerals.toml --set 'include=\"" + rock +
                            "\"' --only mineral_properties --case compression_quartz");
-  CHECK_FALSE(own.scenario_is_shipped);
-  CHECK(own.rock_is_shipped);
+  CHECK_FALSE(own.scenario.shipped);
+  CHECK(own.rock.shipped);
   // Given again, that command asks for the same.
   CHECK(again(copy, {"--set", "include=\"" DEM_SOURCE_DIR "/" + rock + "\""}).command == again(copy).command);
 
   dem::write_file(folder / "mine.toml", dem::read_file(DEM_SOURCE_DIR "/" + rock) + "# mine\n");
   const reports::Again other = again(shipped, {"--set", "include=\"" + (folder / "mine.toml").string() + "\""});
   CHECK(other.command == "./dem-report scenarios/ldb_minerals.toml --set 'include=\"mine.toml\"'");
-  CHECK_FALSE(other.rock_is_shipped);
+  CHECK_FALSE(other.rock.shipped);
+
+  // A study and a rock of one name, both one's own, are told apart in one folder.
+  std::filesystem::create_directories(folder / "own/rocks");
+  dem::write_file(folder / "own/my_rock.toml", dem::read_file(DEM_SOURCE_DIR "/scenarios/my_rock.toml") + "# mine\n");
+  dem::write_file(folder / "own/rocks/my_rock.toml",
+                  dem::read_file(DEM_SOURCE_DIR "/scenarios/rocks/my_rock.toml") + "# mine\n");
+  CHECK(again(folder / "own/my_rock.toml").command ==
+        "./dem-report my_rock.toml --set 'include=\"rock_my_rock.toml\"'");
 }
 
 TEST_CASE("a report of one figure or one case has a folder of its own") {
