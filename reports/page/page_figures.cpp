@@ -80,7 +80,8 @@ std::vector<Download> downloads_of(const DrawnPanel& panel, const std::filesyste
     const std::filesystem::path path(file);
     const bool table = path.extension() == ".csv";
     if (table && first.empty()) first = path.stem().string();
-    if (path.extension() == ".png" || std::filesystem::file_size(folder / path) > largest) continue;
+    const bool shown_as_pixels = path.extension() == ".svg" && file != panel.image;  // megabytes: they lie in figures/
+    if (path.extension() == ".png" || shown_as_pixels || std::filesystem::file_size(folder / path) > largest) continue;
     const std::string part = table ? path.stem().string().substr(first.size()) : "";
     all.push_back({file, table ? "CSV" + (part.empty() ? "" : " (" + words(part.substr(1)) + ")") : "SVG"});
   }
