@@ -25,7 +25,7 @@ endfunction()
 
 find_package(OpenSSL REQUIRED)
 find_package(tomlplusplus REQUIRED)
-dem_fuzz(scenario 10000 LIBRARIES dem_study dem_models tomlplusplus::tomlplusplus SOURCES
+dem_fuzz(scenario 1000 LIBRARIES dem_study dem_models tomlplusplus::tomlplusplus SOURCES
          core/files.cpp core/text.cpp scenario/convert.cpp scenario/keys.cpp scenario/reader.cpp scenario/scenario.cpp
          scenario/suggest.cpp scenario/units.cpp)
 dem_fuzz(elle 70000 LIBRARIES dem_sheet SOURCES core/files.cpp core/text.cpp sheet/elle.cpp sheet/grains.cpp)

@@ -18,7 +18,9 @@ constexpr int spins = 1000;  // 20 to 50 microseconds: more than threads of a st
 
 constexpr double window = 0.1;                                             // s: many turns of the scheduler
 constexpr double first_interval = 0.4, longest_interval = 60, slower = 4;  // s, s, times as seldom
-constexpr double gain = 1.1;  // that makes a change worth it: less may be chance
+constexpr std::size_t turns = 5;
+constexpr double hopeless = 0.75, plain = 1.3;  // ratios that need no further turn
+constexpr double gain = 1.05;                   // that makes more threads worth it: fewer leave room for others
 
 }  // namespace
 
@@ -43,6 +45,7 @@ int Pace::threads(int most) {
     most_ = now_ = most;
     interval_ = first_interval;
     since_ = 0;
+    ratios_.clear();
     next(Phase::steady);
   }
   return phase_ == Phase::trial ? tried_ : now_;
@@ -69,7 +72,15 @@ void Pace::done(double work, double seconds) {
     return next(Phase::check);
   }
   if (phase_ == Phase::check) {  // the rates of before the trial and after it
-    const bool better = trial_rate_ > gain * std::max(rate_, rate);
+    const bool fewer = tried_ < now_;
+    const double ratio = 2 * trial_rate_ / (rate_ + rate);
+    ratios_.push_back(ratio);
+    const bool seen = ratios_.size() == 1 && (ratio < hopeless || (fewer && ratio > plain));
+    rate_ = rate;
+    if (!seen && ratios_.size() < turns) return next(Phase::trial);
+    std::ranges::nth_element(ratios_, ratios_.begin() + static_cast<std::ptrdiff_t>(ratios_.size() / 2));
+    const bool better = ratios_[ratios_.size() / 2] > (fewer ? 1 : gain);
+    ratios_.clear();
     if (better) now_ = tried_;
     interval_ = better ? first_interval : std::min(slower * interval_, longest_interval);
     up_ = !up_;

@@ -3,6 +3,7 @@
 // threads are often not on a processor: one that spins until they come keeps them off it. So all waiting here, and that
 // of OpenMP's own regions, spins for some tens of microseconds and then sleeps.
 #include <atomic>
+#include <vector>
 
 namespace dem {
 
@@ -20,8 +21,9 @@ class Barrier {
   alignas(64) std::atomic<unsigned> turn_{0};
 };
 
-/// How many threads serve a long piece of work best, found while it runs: now and then a tenth of a second on half as
-/// many, or on twice as many again, and the faster number is kept. It asks more seldom while nothing changes.
+/// How many threads serve a long piece of work best, found while it runs: now and then tenths of a second on half as
+/// many, or on twice as many again, in turn with as many as now; the faster number by the median of up to five turns is
+/// kept, as one turn on a busy machine tells little. It asks more seldom while nothing changes.
 class Pace {
  public:
   /// Of the next stretch of work; all of them until something else was seen to be faster.
@@ -40,6 +42,7 @@ class Pace {
   double work_ = 0, seconds_ = 0;     ///< of this window
   double since_ = 0, interval_ = 0;   ///< s since the last trial, and between trials
   double rate_ = 0, trial_rate_ = 0;  ///< of the last windows
+  std::vector<double> ratios_ = {};   ///< of this trial to the windows before and after it, turn by turn
 };
 
 }  // namespace dem

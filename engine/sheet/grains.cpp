@@ -34,6 +34,15 @@ Outline nearer(const Outline& outline, const Point& a, const Point& b) {
   return kept;
 }
 
+// The square of the distance beyond which no centre cuts a cell: twice that of its furthest corner, and rounding.
+double reach_of(const Outline& cell, const Point& c) {
+  double furthest = 0;
+  for (const Point& p : cell) {
+    furthest = std::max(furthest, (p[0] - c[0]) * (p[0] - c[0]) + (p[1] - c[1]) * (p[1] - c[1]));
+  }
+  return 4 * furthest * (1 + 1e-9);
+}
+
 std::vector<Outline> cells(const std::vector<Point>& centres, const VoronoiSettings& s) {
   std::vector<Outline> result;
   for (std::size_t i = 0; i < centres.size(); ++i) {
@@ -44,13 +53,18 @@ std::vector<Outline> cells(const std::vector<Point>& centres, const VoronoiSetti
                                         {c[0] - 1, c[1] + s.height}}
                               : Outline{{0, 0}, {1, 0}, {1, s.height}, {0, s.height}};
     const int images = s.periodic ? 1 : 0;
+    double reach = reach_of(cell, c);
     for (std::size_t j = 0; j < centres.size(); ++j) {
+      double x = std::fabs(centres[j][0] - c[0]), y = std::fabs(centres[j][1] - c[1]);
+      if (s.periodic) x = std::min(x, std::fabs(1 - x)), y = std::min(y, std::fabs(s.height - y));
+      if (x * x + y * y > reach) continue;
       for (int sx = -images; sx <= images; ++sx) {
         for (int sy = -images; sy <= images; ++sy) {
           if (i == j && sx == 0 && sy == 0) continue;
           cell = nearer(cell, c, {centres[j][0] + sx, centres[j][1] + sy * s.height});
         }
       }
+      reach = reach_of(cell, c);
     }
     result.push_back(std::move(cell));
   }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 
@@ -87,7 +88,8 @@ class Mutator {
         text_(pick(harness.corpus)) {}
 
   std::string input() {
-    for (auto changes = 1 + random_.below(6); changes > 0; --changes) change();
+    const bool mildly = random_.below(2) == 0;
+    for (auto changes = 1 + random_.below(mildly ? 3 : 6); changes > 0; --changes) mildly ? change_mildly() : change();
     if (text_.size() > longest) text_.resize(longest);
     return std::move(text_);
   }
@@ -107,13 +109,40 @@ class Mutator {
     return {begin, std::min(end + 1, text_.size()) - begin};
   }
 
-  void replace_number(const std::string& by) {
+  // The beginning and length of a number; length 0: there is none.
+  std::pair<std::size_t, std::size_t> number() {
     const std::size_t digit = text_.find_first_of("0123456789", place());
-    if (digit == std::string::npos) return;
+    if (digit == std::string::npos) return {0, 0};
     const std::size_t begin = text_.find_last_not_of("0123456789.eE+-", digit);
     const std::size_t from = begin == std::string::npos ? 0 : begin + 1;
-    const std::size_t end = std::min(text_.find_first_not_of("0123456789.eE+-", digit), text_.size());
-    text_.replace(from, end - from, by);
+    return {from, std::min(text_.find_first_not_of("0123456789.eE+-", digit), text_.size()) - from};
+  }
+
+  void replace_number(const std::string& by) {
+    const auto [from, length] = number();
+    if (length > 0) text_.replace(from, length, by);
+  }
+
+  // From half of it to twice as much; a whole number stays whole.
+  void scale_number() {
+    const auto [from, length] = number();
+    if (length == 0) return;
+    const std::string word = text_.substr(from, length);
+    const double scaled = std::strtod(word.c_str(), nullptr) * random_.uniform(0.5, 2);
+    const bool whole = word.find_first_of(".eE") == std::string::npos;
+    text_.replace(from, length, whole ? fmt::format("{:.0f}", scaled) : fmt::format("{:.6g}", scaled));
+  }
+
+  void change_mildly() {
+    const std::size_t kind = below(12);
+    if (kind == 0) {
+      const auto [begin, length] = line();
+      text_.erase(begin, length);
+    } else if (kind < 9 && !harness_.lines.empty()) {
+      text_ += pick(harness_.lines);
+    } else {
+      scale_number();
+    }
   }
 
   void change() {

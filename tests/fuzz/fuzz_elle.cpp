@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
                             {"OPTIONS\n", "FLYNNS\n", "LOCATION\n", "MINERAL\n", "UNODES\n", "UNODES CONC_A\n",
                              "U_ATTRIB_A\n", "Default ", "CellBoundingBox ", "SimpleShearOffset ", "GRAIN\n",
                              "AGE AGE CYCLE\n", "EXPAND\n", "-1 ", " 0 1 2 3", "\n", "\t", "#", "QUARTZ"},
+                            {},
                             [&](const std::string& input) {
                               const ElleMap map = parse_elle(input, "map.elle");
                               bool asked = false;  // for unodes, as rules do: find() refuses places far outside

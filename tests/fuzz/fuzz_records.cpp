@@ -80,6 +80,7 @@ int main(int argc, char** argv) {
                             corpus,
                             {"sha256 ", "dem-report checkpoint 1\n", std::string(8, '\0'), std::string(8, '\xff'),
                              std::string("\x08\0\0\0\0\0\0\0", 8), "\x89HDF\r\n\x1a\n"},
+                            {},
                             [&](const std::string& input) {
                               std::ofstream(file, std::ios::binary | std::ios::trunc) << input;
                               const auto reads = [&](const auto& attempt, const std::string& due, const char* what) {

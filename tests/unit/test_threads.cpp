@@ -1,10 +1,12 @@
 // Threads that wait for each other, and how many are taken.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <thread>
 #include <vector>
 
+#include "engine/core/random.h"
 #include "engine/core/threads.h"
 
 using namespace dem;
@@ -74,6 +76,26 @@ TEST_CASE("looking for a better number of threads costs little") {
             idle, 2, 20, [](int n) { return n == 1 ? 1.0 : 1.8; }, 1.8) > 0.985);
   CHECK(share(
             busy, 2, 20, [](int n) { return n == 1 ? 1.0 : 0.2; }, 1.0) > 0.95);
+}
+
+TEST_CASE("on a machine whose speed comes and goes the better number of threads is still found") {
+  // Windows of the scheduler: each tenth of a second anything from 40 to 100 % of the speed.
+  const RandomStream seed(1, Purpose::test_data);
+  for (const double two : {0.8, 1.25}) {
+    RandomStream random = seed;
+    double speed = 1, time = 0;
+    Pace pace;
+    const double made = share(
+        pace, 2, 60,
+        [&](int n) {
+          if ((time += 0.01) > 0.0995) time = 0, speed = random.uniform(0.4, 1);
+          return speed * (n == 1 ? 1 : two);
+        },
+        0.7 * std::max(1.0, two));
+    CAPTURE(two);
+    CHECK(made > 0.93);  // of what the better number makes at the mean speed
+    CHECK(pace.threads(2) == (two > 1 ? 2 : 1));
+  }
 }
 
 TEST_CASE("stretches without work are not taken for slow ones") {
