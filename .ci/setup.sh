@@ -6,7 +6,8 @@ packages="g++ cmake ninja-build pkg-config libvtk9-dev libopenmpi-dev libosmesa6
 libtomlplusplus-dev libcxxopts-dev libfmt-dev nlohmann-json3-dev libkainjow-mustache-dev
 libboost-dev libeigen3-dev libssl-dev librandom123-dev
 weasyprint fonts-dejavu-core"
-test_packages="doctest-dev tidy poppler-utils clang-format python3-jsonschema python3-junitparser libxml2-utils"
+test_packages="doctest-dev tidy poppler-utils clang-format python3-jsonschema python3-junitparser libxml2-utils
+mandoc man-db zsh fish"
 # For test_slurm, which is skipped where these cannot be had.
 cluster_packages="slurmctld slurmd slurm-client munge"
 # Commands that look at pages in a browser, with their packages. Tests that need them are skipped without them.

@@ -26,7 +26,7 @@ Command verbs::collect() {
           .details =
               "The report is the one that dem-report SCENARIO... would have made. Cases without a record are shown as "
               "failed, with what is known of them.",
-          .positionals = {{.name = "OUT", .help = "the folder of the plan"}},
+          .positionals = {{.name = "OUT", .help = "the folder of the plan", .kind = OptionKind::folder}},
           .options = std::move(options),
           .examples = {{"dem-report collect out", "report what has been run of the plan in out"}},
           .exit_codes = run_exit_codes(),

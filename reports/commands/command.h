@@ -21,6 +21,8 @@ struct Positional {
   std::size_t least = 1;    ///< how many must be there
   std::size_t most = 1;
   std::vector<std::string> choices = {};  ///< the allowed words; empty: any
+  OptionKind kind = OptionKind::text;     ///< file or folder: a shell completes those
+  bool verbs = false;                     ///< it names a verb
 };
 
 struct Example {

@@ -45,8 +45,10 @@ Command verbs::compare() {
       .details =
           "Compares inputs key by key, every result, check and verdict, curves, pictures and the words of the report, "
           "and says what made a difference. Writes a page and, beside it, the same as JSON.",
-      .positionals = {{.name = "OLD", .help = "folder of a report or a reference, or one with many"},
-                      {.name = "NEW", .help = "the same, made later"}},
+      .positionals = {{.name = "OLD",
+                       .help = "folder of a report or a reference, or one with many",
+                       .kind = OptionKind::folder},
+                      {.name = "NEW", .help = "the same, made later", .kind = OptionKind::folder}},
       .options = {{.name = "output",
                    .letter = 'o',
                    .value = "FILE",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "engine/scenario/suggest.h"
@@ -51,31 +52,9 @@ std::string table(const std::string& title, const Rows& rows) {
   return text;
 }
 
-/// "smoke, draft, paper or high"
-std::string one_of(const std::vector<std::string>& choices) {
-  if (choices.size() < 2) return dem::joined(choices);
-  return dem::joined(std::span(choices).first(choices.size() - 1)) + " or " + choices.back();
-}
-
-std::string option_text(const Option& option) {
-  std::string more;
-  const auto add = [&](const std::string& part) { more += (more.empty() ? "" : "; ") + part; };
-  if (option.kind == OptionKind::list) {
-    add("one or more of " + dem::joined(option.choices) + ", with commas between them");
-  } else if (!option.choices.empty()) {
-    add(one_of(option.choices));
-  }
-  if (option.kind == OptionKind::number) add(fmt::format("{} to {}", option.low, option.high));
-  if (option.repeatable) add("may be repeated");
-  if (!option.standard.empty()) add("default: " + option.standard);
-  return option.help + (more.empty() ? "" : " (" + more + ")");
-}
-
 Rows option_rows(const Command& command) {
   Rows rows;
-  std::vector<Option> options = command.options;
-  options.push_back(help_option());
-  for (const Option& option : options) {
+  for (const Option& option : options_of(command)) {
     const std::string letter = option.letter != 0 ? fmt::format("-{}, ", option.letter) : "    ";
     rows.emplace_back(letter + "--" + option.name + (option.value.empty() ? "" : " " + option.value),
                       option_text(option));
@@ -104,6 +83,41 @@ std::string usage(const std::string& program, const Command& command) {
   return "  " + program + " [options]" + (words.empty() ? "" : " " + words) + "\n";
 }
 
+}  // namespace
+
+std::vector<ExitCode> usual_exit_codes() {
+  return {
+      {"0", "all well"}, {"2", "wrong input or usage; nothing is written"}, {"3", "the machine or the program failed"}};
+}
+
+std::vector<Option> options_of(const Command& command) {
+  std::vector<Option> options = command.options;
+  options.push_back(help_option());
+  return options;
+}
+
+std::string one_of(const std::vector<std::string>& choices) {
+  if (choices.size() < 2) return dem::joined(choices);
+  return dem::joined(std::span(choices).first(choices.size() - 1)) + " or " + choices.back();
+}
+
+std::string option_text(const Option& option) {
+  std::string more;
+  const auto add = [&](const std::string& part) { more += (more.empty() ? "" : "; ") + part; };
+  if (option.kind == OptionKind::list) {
+    add("one or more of " + dem::joined(option.choices) + ", with commas between them");
+  } else if (!option.choices.empty()) {
+    add(one_of(option.choices));
+  }
+  if (option.kind == OptionKind::number) {
+    const bool open = option.high == std::numeric_limits<std::uint64_t>::max();
+    add(open ? fmt::format("from {}", option.low) : fmt::format("{} to {}", option.low, option.high));
+  }
+  if (option.repeatable) add("may be repeated");
+  if (!option.standard.empty()) add("default: " + option.standard);
+  return option.help + (more.empty() ? "" : " (" + more + ")");
+}
+
 std::string sentence(std::string text) {
   if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') {
     text.front() = static_cast<char>(text.front() - 'a' + 'A');
@@ -111,11 +125,8 @@ std::string sentence(std::string text) {
   return text + ".";
 }
 
-}  // namespace
-
-std::vector<ExitCode> usual_exit_codes() {
-  return {
-      {"0", "all well"}, {"2", "wrong input or usage; nothing is written"}, {"3", "the machine or the program failed"}};
+std::string_view program_summary() {
+  return "dem-report simulates the cases of a scenario and makes an HTML and a PDF report of them.";
 }
 
 std::string positionals_text(const Command& command, bool endings) {
@@ -140,9 +151,9 @@ std::string program_help(std::span<const Command> commands) {
     verbs.emplace_back(command.name,
                        command.summary + (&command == &first ? "; this is done when no verb is given" : ""));
   }
-  return hung("", 0, "dem-report simulates the cases of a scenario and makes an HTML and a PDF report of them.") +
-         "\nUsage:\n" + usage("dem-report", first) + "  dem-report VERB [options] [arguments]\n" +
-         table("Verbs (dem-report VERB --help says more)", verbs) + rest_of_help(first, "Options of " + first.name);
+  return hung("", 0, program_summary()) + "\nUsage:\n" + usage("dem-report", first) +
+         "  dem-report VERB [options] [arguments]\n" + table("Verbs (dem-report VERB --help says more)", verbs) +
+         rest_of_help(first, "Options of " + first.name);
 }
 
 std::string command_help(const Command& command) {

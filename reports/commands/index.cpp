@@ -40,7 +40,7 @@ Command verbs::index() {
       .details =
           "Writes DIR/index.html and DIR/index.json: a row a study, what failed first, with filters; with a history "
           "also where a number stepped.",
-      .positionals = {{.name = "DIR", .help = "the folder that runs have written to"}},
+      .positionals = {{.name = "DIR", .help = "the folder that runs have written to", .kind = OptionKind::folder}},
       .options = {history_option(), {.name = "quiet", .help = "print nothing but errors"}},
       .examples = {{"dem-report index out --history history.jsonl", "with sparklines and steps"}},
       .exit_codes = usual_exit_codes(),

@@ -120,7 +120,7 @@ Command verbs::run_case() {
           .details =
               "A case that has its record by now is kept. Lines may be run in any order, twice, and several at a "
               "time, on any machine that sees the folder.",
-          .positionals = {{.name = "OUT", .help = "the folder of the plan"},
+          .positionals = {{.name = "OUT", .help = "the folder of the plan", .kind = OptionKind::folder},
                           {.name = "LINE",
                            .help = "numbers of lines of OUT/manifest.jsonl, from 1",
                            .least = 0,

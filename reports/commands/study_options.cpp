@@ -25,7 +25,11 @@ dem::Study read_one(const std::string& file, const std::string& scale, std::span
 }  // namespace
 
 Positional scenario_positional() {
-  return {.name = "SCENARIO", .help = "scenario files", .ending = ".toml", .most = Positional::any_number};
+  return {.name = "SCENARIO",
+          .help = "scenario files",
+          .ending = ".toml",
+          .most = Positional::any_number,
+          .kind = OptionKind::file};
 }
 
 Option output_option() {

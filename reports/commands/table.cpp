@@ -7,8 +7,8 @@ namespace cli {
 std::span<const Command> commands() {
   static const std::vector<Command> table = {
       verbs::run(),  //
-      verbs::compare(), verbs::accept(), verbs::index(),   verbs::plan(), verbs::run_case(), verbs::collect(),
-      verbs::figures(), verbs::keys(),   verbs::results(), verbs::help(), verbs::version(),
+      verbs::compare(), verbs::accept(), verbs::index(),   verbs::plan(), verbs::run_case(),   verbs::collect(),
+      verbs::figures(), verbs::keys(),   verbs::results(), verbs::help(), verbs::completion(), verbs::version(),
   };
   return table;
 }
