@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cctype>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <sstream>
 #include <vector>
 
@@ -91,12 +93,22 @@ std::string last_words(const std::string& said) {
   return words.empty() ? "; it said nothing" : "; it said last: " + harmless(words);
 }
 
-// Without a font Pango crashes, and its last words do not say why.
-void check_fonts(const std::string& said) {
-  if (said.find("No fonts configured") == std::string::npos) return;
+[[noreturn]] void no_font() {
   throw dem::EnvironmentError(
       "weasyprint found no font: fontconfig knows none; install the package fonts-dejavu-core, or look at "
       "FONTCONFIG_FILE and FONTCONFIG_PATH");
+}
+
+// Without a font Pango crashes or waits for ever, and its last words do not say why.
+void check_fonts(const std::string& said) {
+  if (said.find("No fonts configured") != std::string::npos) no_font();
+}
+
+// What fontconfig knows, if its tool is there to tell.
+void check_fonts() {
+  const std::unique_ptr<FILE, int (*)(FILE*)> fonts(
+      popen("command -v fc-list >/dev/null || echo untold; timeout 20 fc-list 2>/dev/null", "r"), pclose);
+  if (fonts && std::fgetc(fonts.get()) == EOF) no_font();
 }
 
 std::string signal_text(int signal) {
@@ -149,6 +161,7 @@ std::string fault_of_pdf(std::string_view bytes) {
 
 void check_printing() {
   (void)find_weasyprint();
+  check_fonts();
   const char* date = std::getenv("SOURCE_DATE_EPOCH");
   if (!date) return;
   const std::string_view digits = date;

@@ -112,6 +112,8 @@ std::string deviation_text(const Comparison& row) {
 
 std::string tolerance_text(const Comparison& row) {
   if (!row.tolerance) return row.estimate && row.estimate->has_interval() ? "by interval" : "–";
+  constexpr double rounding = 1e-6;  // a tolerance that lets only rounding pass
+  if (*row.tolerance <= rounding) return "none";
   if (row.relative) return "± " + shortest(100 * *row.tolerance) + " %";
   return with_unit("± " + shortest(*row.tolerance), difference_unit(row.unit));
 }
@@ -284,6 +286,13 @@ PageData cases_data(const StudyResult& study) {
   return list;
 }
 
+namespace {
+
+// In the middle of a sentence.
+std::string check_name(std::string_view id) { return id == "quasi_static" ? "quasi-static loading" : words(id); }
+
+}  // namespace
+
 bool checks_held(const StudyResult& study) {
   return std::ranges::all_of(study.cases, [](const CaseResult& result) {
     return !result.record || std::ranges::all_of(result.record->checks, &dem::Check::held);
@@ -305,9 +314,13 @@ std::string checks_summary(const StudyResult& study) {
     }
   }
   if (checks == 0) return {};
-  if (broken.empty()) return fmt::format("All {} checks of the runs held.", checks);
+  if (broken.empty()) {
+    return checks == 1   ? "The check of the run held."
+           : checks == 2 ? "Both checks of the runs held."
+                         : fmt::format("All {} checks of the runs held.", checks);
+  }
   std::vector<std::string> parts;
-  for (const auto& [check, cases] : broken) parts.push_back(words(check) + " (" + joined(cases, ", ") + ")");
+  for (const auto& [check, cases] : broken) parts.push_back(check_name(check) + " (" + joined(cases, ", ") + ")");
   return fmt::format("{} of {} checks did not hold: {}.", broken_checks, checks, joined(parts, "; "));
 }
 
@@ -603,7 +616,7 @@ PageData checks_data(const StudyResult& study) {
     const dem::Check& check = *entry;
     PageData item;
     item.set("case", result->id);
-    item.set("check", capital(words(check.id)));
+    item.set("check", capital(check_name(check.id)));
     item.set("meaning", check.meaning);
     item.set("has_meaning", check.id != last);
     last = check.id;
@@ -621,15 +634,21 @@ PageData checks_data(const StudyResult& study) {
 }
 
 PageData notes_data(const StudyResult& study) {
-  PageData list = new_list();
+  std::vector<std::pair<std::string, std::vector<std::string>>> said;  // each note, with the cases that have it
   for (const CaseResult& result : study.cases) {
     if (!result.record) continue;
     for (const std::string& note : result.record->notes) {
-      PageData item;
-      item.set("case", result.id);
-      item.set("note", note);
-      list.push_back(item);
+      auto same = std::ranges::find(said, note, [](const auto& one) { return one.first; });
+      if (same == said.end()) same = said.insert(said.end(), {note, {}});
+      same->second.push_back(result.id);
     }
+  }
+  PageData list = new_list();
+  for (const auto& [note, cases] : said) {
+    PageData item;
+    item.set("case", cases.size() > 1 && cases.size() == study.cases.size() ? "all cases" : joined(cases, ", "));
+    item.set("note", note);
+    list.push_back(item);
   }
   return list;
 }

@@ -126,6 +126,8 @@ TEST_CASE("wrong usage is told with what would be right") {
   says({"a.toml", "--threads", "0"}, "'0' is not a whole number from 1 to 1024");
   says({"a.toml", "--threads", "two"}, "'two' is not a whole number");
   says({"a.toml", "--threads=-2"}, "'-2' is not a whole number");
+  says({"a.toml", "--dpi", "30"}, "--dpi: '30' is not a whole number from 72 to 1200");
+  says({"a.toml", "--dpi", "fine"}, "--dpi: 'fine' is not a whole number");
   says({"a.toml", "--seed", "1.5"}, "--seed: '1.5' is not a whole number from 0");
   says({"a.toml", "--format", "html,docx"}, "unknown format 'docx'; write html, pdf or html,pdf");
   says({"a.toml", "--format", ""}, "unknown format ''");

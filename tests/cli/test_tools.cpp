@@ -249,6 +249,9 @@ TEST_CASE("fonts that fontconfig does not know are named, and an empty environme
     CAPTURE(outcome.err);
     CHECK(outcome.code == 3);
     CHECK(has(outcome.err, "weasyprint found no font"));
+    const test::Scratch fresh;  // before anything is simulated
+    CHECK(test::run_program(fresh.path(), {scenario, "--scale", "smoke"}).code == 3);
+    CHECK(fs::is_empty(fresh.path()));
   }
   const test::Outcome outcome = test::run_shell(
       folder.path(), "exec env -i \"$PROGRAM\" " + scenario + " --scale smoke --report-only --only input_parameters");

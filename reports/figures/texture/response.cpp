@@ -418,12 +418,23 @@ render::Chart contact_chart(const StudyResult& study, const std::vector<SeriesCa
   return chart;
 }
 
+// "inter_quartz_alkali_feldspar" -> "between quartz and alkali feldspar", as in the tables of cracks.
+std::string contact_group(const std::vector<std::string>& minerals, const std::string& id) {
+  for (const std::string& a : minerals) {
+    if (words(id) == "intra " + a) return "within " + a;
+    for (const std::string& b : minerals) {
+      if (words(id) == "inter " + a + " " + b) return "between " + a + " and " + b;
+    }
+  }
+  return words(id);
+}
+
 TextTable contact_table(const std::vector<SeriesCase>& cases) {
   TextTable table;
   table.head = {"Contact group"};
   for (const SeriesCase& item : cases) table.head.push_back(item.label + " (%)");
   for (const std::string& name : members_of(cases, quantity::contact_share)) {
-    std::vector<std::string> row{words(name)};
+    std::vector<std::string> row{contact_group(minerals_of(*cases.front().record), name)};
     for (const SeriesCase& item : cases)
       row.push_back(fmt::format("{:.1f}", share(*item.record, quantity::contact_share, name)));
     table.rows.push_back(row);
