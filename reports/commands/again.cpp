@@ -15,16 +15,26 @@ bool same_bytes(const fs::path& a, const fs::path& b) {
   return dem::read_file(a) == dem::read_file(b);
 }
 
-/// The place of a file below the folder of the clone.
+/// The place of a file as seen from the folder at hand.
 struct Place {
   fs::path path;
   bool shipped = false;
 };
 
+struct Program {
+  std::string name;
+  fs::path scenarios;  ///< those that come with it
+};
+
+Program program_at(Home home) {
+  if (home == Home::clone) return {"./dem-report", "scenarios"};
+  return {"dem-report", "/usr/share/dem-report/scenarios"};
+}
+
 /// `below`: the folder of `shipped` where files of this kind lie.
-Place place_of(const fs::path& file, const fs::path& shipped, const fs::path& below) {
+Place place_of(const fs::path& file, const fs::path& shipped, const Program& program, const fs::path& below) {
   const fs::path known = below / file.filename();
-  if (same_bytes(file, shipped / known)) return {"scenarios" / known, true};
+  if (same_bytes(file, shipped / known)) return {program.scenarios / known, true};
   return {file.filename(), false};
 }
 
@@ -51,11 +61,15 @@ fs::path shipped_scenarios(const fs::path& assets) {
   return (error ? assets : whole).parent_path() / "scenarios";
 }
 
-reports::Again how_again(const RunRequest& request, const dem::Scenario& scenario, const fs::path& shipped) {
-  const Place study = place_of(scenario.file(), shipped, {});
+reports::Again how_again(const RunRequest& request, const dem::Scenario& scenario, const fs::path& shipped, Home home) {
+  const Program program = program_at(home);
+  const fs::path map = scenario.declares("grains.file") ? fs::path(scenario.text("grains.file")) : fs::path();
+  Place study = place_of(scenario.file(), shipped, program, {});
+  // A map is named from the folder of its scenario, and nobody but root may put one beside the installed ones.
+  if (home == Home::installed && !map.empty()) study = {study.path.filename(), false};
   reports::Again again;
   again.scenario = {study.path.string(), study.shipped};
-  again.command = "./dem-report " + shell_quoted(study.path.string());
+  again.command = program.name + " " + shell_quoted(study.path.string());
   if (request.scale != "draft") again.command += " --scale " + request.scale;
   bool another_rock = !study.shipped, another_map = false;
   for (const std::string& override : request.overrides) {
@@ -67,13 +81,11 @@ reports::Again how_again(const RunRequest& request, const dem::Scenario& scenari
         key == "seed" ? " --seed " + override.substr(override.find('=') + 1) : " --set " + shell_quoted(override);
   }
   if (!scenario.included().empty()) {
-    Place rock = place_of(scenario.included(), shipped, "rocks");
+    Place rock = place_of(scenario.included(), shipped, program, "rocks");
     if (rock.path == study.path) rock.path = "rock_" + rock.path.string();  // both are saved in one folder
     again.rock = {rock.path.string(), rock.shipped};
     if (another_rock) again.command += " --set " + shell_quoted("include=" + quoted(rock.path));
   }
-  // A map is named from the folder of its scenario.
-  const fs::path map = scenario.declares("grains.file") ? fs::path(scenario.text("grains.file")) : fs::path();
   if (!map.empty()) {
     again.needs = (study.path.parent_path() / map.filename()).string();
     if (another_map || map != map.filename())

@@ -11,10 +11,13 @@ namespace cli {
 /// The folder of the scenarios that come with the program, beside its assets.
 std::filesystem::path shipped_scenarios(const std::filesystem::path& assets);
 
-/// The command from the folder of a clone, with the options that shape the report and without folders of this machine.
+/// Where the command is given: in the folder of a clone, or in any folder where the Debian package is installed.
+enum class Home { clone, installed };
+
+/// The command with the options that shape the report, without folders of this machine.
 /// What is asked for is the same however the scenario's path is typed: a file whose bytes are those of one of `shipped` is
-/// named there, any other goes, with the files that it needs, into the folder of the clone.
-reports::Again how_again(const RunRequest& request, const dem::Scenario& scenario,
-                         const std::filesystem::path& shipped);
+/// named where it comes with the program, any other goes, with the files that it needs, into the folder at hand.
+reports::Again how_again(const RunRequest& request, const dem::Scenario& scenario, const std::filesystem::path& shipped,
+                         Home home);
 
 }  // namespace cli

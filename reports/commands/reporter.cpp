@@ -1,11 +1,16 @@
 #include "reports/commands/reporter.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <ctime>
 #include <iostream>
+#include <string_view>
 
 #include "engine/core/files.h"
 #include "engine/core/text.h"
@@ -58,6 +63,16 @@ bool all_well(const std::vector<dem::CaseOutcome>& outcomes) {
   return well;
 }
 
+/// Now, or the moment that SOURCE_DATE_EPOCH stands for, as in the PDF.
+std::string date_of_report() {
+  std::time_t seconds = std::time(nullptr);
+  if (const char* asked = std::getenv("SOURCE_DATE_EPOCH")) {
+    const std::string_view text(asked);
+    std::from_chars(text.data(), text.data() + text.size(), seconds);  // check_printing() refuses what is none
+  }
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}+00:00", fmt::gmtime(seconds));
+}
+
 /// What a person opens: the page, else the PDF.
 fs::path shown_file(const std::vector<fs::path>& files) {
   const auto page = std::ranges::find_if(files, [](const fs::path& file) { return file.extension() == ".html"; });
@@ -67,7 +82,7 @@ fs::path shown_file(const std::vector<fs::path>& files) {
 }  // namespace
 
 bool Reporter::report(const dem::Study& study, const std::vector<dem::CaseOutcome>& outcomes,
-                      const reports::Again& again) {
+                      const reports::Again& again, const reports::Again& installed) {
   reports::StudyResult result{.scenario = &study.scenario,
                               .cases = {},
                               .quantities = study.model->quantities(),
@@ -84,6 +99,8 @@ bool Reporter::report(const dem::Study& study, const std::vector<dem::CaseOutcom
   report.pdf = options_.pdf;
   report.only = options_.figure;
   report.again = again;
+  report.again_installed = installed;
+  report.date = date_of_report;
   report.engine_version = DEM_VERSION;
   report.dpi = options_.dpi;
   report.workers = options_.threads;

@@ -38,8 +38,10 @@ class Reporter {
 
   /// True when every case that was asked for has a record, every check holds, and nothing changed beyond tolerance since
   /// the reference; else stderr says what does not.
-  /// `again` is how to make the report again. Throws dem::EnvironmentError as reports::make_report().
-  bool report(const dem::Study& study, const std::vector<dem::CaseOutcome>& outcomes, const reports::Again& again);
+  /// `again` and `installed` are how to make the report again, in a clone and where the program is installed.
+  /// Throws dem::EnvironmentError as reports::make_report().
+  bool report(const dem::Study& study, const std::vector<dem::CaseOutcome>& outcomes, const reports::Again& again,
+              const reports::Again& installed);
 
  private:
   ReporterOptions options_;

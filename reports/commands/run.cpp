@@ -66,7 +66,8 @@ class Night {
     try {
       const auto outcomes = outcomes_of(study);
       progress_.say("drawing the figures and the report");
-      return reporter.report(study, outcomes, how_again(request_, study.scenario, shipped_));
+      return reporter.report(study, outcomes, how_again(request_, study.scenario, shipped_, Home::clone),
+                             how_again(request_, study.scenario, shipped_, Home::installed));
     } catch (const dem::EnvironmentError& error) {
       if (studies_.size() < 2) throw;
       progress_.clear();

@@ -10,11 +10,11 @@
 
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
-#include "engine/core/hash.h"
 #include "engine/model/model.h"
 #include "reports/figures/parts.h"
 #include "reports/output/csv.h"
 #include "reports/output/workers.h"
+#include "reports/provenance.h"
 #include "reports/text.h"
 
 namespace reports {
@@ -202,18 +202,6 @@ FigureContent content_of(const StudyResult& study, const Figure& figure, DrawnFi
   }
 }
 
-/// The values of a scenario but those that name a file: what the file holds counts, not how its path was typed.
-std::string without_paths(const std::string& canonical) {
-  std::string kept;
-  for (std::size_t from = 0; from < canonical.size();) {
-    const std::size_t end = std::min(canonical.find('\n', from), canonical.size() - 1) + 1;
-    const std::string_view line(&canonical[from], end - from);
-    if (!line.starts_with("include = ") && !line.starts_with("grains.file = ")) kept += line;
-    from = end;
-  }
-  return kept;
-}
-
 Job job_of(const Figure& figure, const Panel& panel, const render::Provenance& study_facts) {
   Job job{&panel, std::string(figure.id) + (panel.id.empty() ? "" : "_" + panel.id), study_facts};
   job.facts.emplace_back("Figure", figure.id);
@@ -291,7 +279,7 @@ Drawings draw_figures(const StudyResult& study, const ChosenFigures& chosen, con
                       const CanvasSource& canvas) {
   const render::Provenance facts{{"Scenario", study.scenario->name()},
                                  {"Scale", study.scenario->scale()},
-                                 {"Scenario hash", dem::sha256(without_paths(study.scenario->canonical()))},
+                                 {"Scenario hash", provenance_of(study, options.engine_version).scenario_sha256},
                                  {"Engine", options.engine_version}};
   dem::make_folder(options.folder / "figures");
   dem::make_folder(options.folder / "data");

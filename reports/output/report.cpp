@@ -7,6 +7,7 @@
 
 #include "engine/core/files.h"
 #include "engine/model/model.h"
+#include "reports/output/crate.h"
 #include "reports/output/drawing.h"
 #include "reports/output/pdf.h"
 #include "reports/output/summary.h"
@@ -30,6 +31,7 @@ bool all_held(const StudyResult& study) {
 ReportOutcome make_report(StudyResult study, const ReportOptions& options, const CanvasSource& canvas,
                           const RunFacts& run) {
   const auto start = std::chrono::steady_clock::now();
+  const std::string earlier = take_crate(options.folder);
   study.of_a_paper = of_a_paper(*study.scenario, options.assets / "papers");
   study.published = published_numbers(study, options.assets / "papers");
   const auto chosen = chosen_figures(study, options.only);
@@ -48,7 +50,9 @@ ReportOutcome make_report(StudyResult study, const ReportOptions& options, const
     write(path);
     outcome.files.push_back(path);
   };
-  written("summary.json", [&](const auto& path) { dem::write_file(path, summary_json(study, comparisons, drawn)); });
+  written("summary.json", [&](const auto& path) {
+    dem::write_file(path, summary_json(study, comparisons, drawn, options.engine_version));
+  });
   ReportOptions shown = options;
   if (options.compare_with_reference) {
     shown.since_reference = options.compare_with_reference(page(study, comparisons, drawn, options, Images::embedded));
@@ -69,6 +73,7 @@ ReportOutcome make_report(StudyResult study, const ReportOptions& options, const
   facts.emplace_back("gl_renderer", drawings.gl_renderer);
   facts.emplace_back("report_seconds", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   dem::write_file(options.folder / "run.json", run_json(facts));
+  if (options.date) write_crate(study, drawn, options, earlier, options.date());
   return outcome;
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 // From the records of a study to its report: figures, data, verdicts, page and PDF, in the output folder of the scenario.
-//   report.html  report.pdf  summary.json  run.json  figures/ID.{png,svg}  data/ID.csv
-// Every file is written aside (same folder, temporary name) and renamed when whole. Everything but run.json depends on
-// the records, the scenario and the assets only: the same input gives the same bytes.
+//   report.html  report.pdf  summary.json  run.json  ro-crate-metadata.json  figures/ID.{png,svg}  data/ID.csv  inputs/
+// Every file is written aside (same folder, temporary name) and renamed when whole. Everything but run.json and
+// ro-crate-metadata.json, which has a date, depends on the records, the scenario and the assets only: the same input gives the
+// same bytes.
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "reports/provenance.h"
+
 namespace reports {
 namespace {
 
@@ -41,13 +43,27 @@ Json or_null(const std::optional<T>& value) {
   return value ? plain(*value) : Json();
 }
 
+constexpr std::uint64_t most_of_a_double = std::uint64_t{1} << 53;
+
+/// Where readers of JSON would lose digits it is a text.
+Json seed(std::uint64_t value) {
+  if (value > most_of_a_double) return std::to_string(value);
+  return value;
+}
+
+Json provenance_json(const StudyResult& study, const std::string& engine_version) {
+  const Provenance origin = provenance_of(study, engine_version);
+  return {{"scenario_sha256", origin.scenario_sha256},
+          {"engine_version", origin.engine_version},
+          {"physics_version", origin.physics_version},
+          {"seed", seed(origin.seed)}};
+}
+
 Json case_json(const CaseResult& result) {
   Json json{{"id", result.id}, {"parameters", Json::object()}, {"results", Json::object()}};
   for (const auto& [id, value] : result.parameters) put(json["parameters"], id, plain(value));
-  // The record has the seed whole. Where a double would lose digits it is a text.
-  if (result.record && result.record->seed > std::uint64_t{1} << 53) {
-    json["parameters"]["seed"] = std::to_string(result.record->seed);
-  }
+  // The record has the seed whole.
+  if (result.record && result.record->seed > most_of_a_double) json["parameters"]["seed"] = seed(result.record->seed);
   if (!result.record) {
     json["error"] = result.error;
     return json;
@@ -123,11 +139,16 @@ Json tally_json(const Tally& counts) {
 }  // namespace
 
 std::string summary_json(const StudyResult& study, const Comparisons& comparisons,
-                         const std::vector<DrawnFigure>& figures) {
-  Json json{{"format", summary_format},         {"scenario", study.scenario->name()},
-            {"scale", study.scenario->scale()}, {"quantities", quantities_json(study)},
-            {"cases", Json::array()},           {"verdicts", tally_json(comparisons.tally())},
-            {"comparisons", Json::array()},     {"checks", Json::array()},
+                         const std::vector<DrawnFigure>& figures, const std::string& engine_version) {
+  Json json{{"format", summary_format},
+            {"scenario", study.scenario->name()},
+            {"scale", study.scenario->scale()},
+            {"provenance", provenance_json(study, engine_version)},
+            {"quantities", quantities_json(study)},
+            {"cases", Json::array()},
+            {"verdicts", tally_json(comparisons.tally())},
+            {"comparisons", Json::array()},
+            {"checks", Json::array()},
             {"figures", Json::array()}};
   for (const CaseResult& result : study.cases) {
     json["cases"].push_back(case_json(result));

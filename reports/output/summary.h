@@ -10,12 +10,12 @@
 namespace reports {
 
 /// Raised when keys or units change.
-inline constexpr int summary_format = 3;
+inline constexpr int summary_format = 4;
 
-/// {"format", "scenario", "scale", "quantities", "cases", "verdicts", "comparisons", "checks", "figures"}, as assets/summary.schema.json
+/// {"format", "scenario", "scale", "provenance", "quantities", "cases", "verdicts", "comparisons", "checks", "figures"}, as assets/summary.schema.json
 /// describes it. Results have the ids of their quantities; those with dots nest; results that are not finite are left out.
 std::string summary_json(const StudyResult& study, const Comparisons& comparisons,
-                         const std::vector<DrawnFigure>& figures);
+                         const std::vector<DrawnFigure>& figures, const std::string& engine_version);
 
 std::string run_json(const RunFacts& facts);
 

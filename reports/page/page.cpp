@@ -141,11 +141,27 @@ void set_citations(PageData& data, const StudyResult& study, const ReportOptions
   data.set("bibtex_href", data_uri(entries, "x.bib"));
 }
 
-void set_again(PageData& data, const dem::Scenario& scenario, const Again& again) {
-  PageData sources{PageData::type::list};
+/// The files that have to be saved before the command is given, and the command.
+PageData way(const dem::Scenario& scenario, const Again& again) {
   std::vector<std::string> saved;
   for (const auto& [file, place] :
        {std::pair{scenario.file(), again.scenario}, std::pair{scenario.included(), again.rock}}) {
+    if (place.shipped || !std::filesystem::exists(file)) continue;
+    saved.push_back(place.path.empty() ? std::filesystem::path(file).filename().string() : place.path);
+  }
+  PageData data;
+  data.set("command", again.command);
+  data.set("has_saved", !saved.empty());
+  data.set("saved", listed(saved));
+  data.set("has_needs", !again.needs.empty());
+  data.set("needs", again.needs);
+  return data;
+}
+
+void set_again(PageData& data, const dem::Scenario& scenario, const ReportOptions& options) {
+  PageData sources{PageData::type::list};
+  for (const auto& [file, place] :
+       {std::pair{scenario.file(), options.again.scenario}, std::pair{scenario.included(), options.again.rock}}) {
     if (!std::filesystem::exists(file)) continue;
     const std::string text = dem::read_file(file);
     const std::string name = place.path.empty() ? std::filesystem::path(file).filename().string() : place.path;
@@ -155,14 +171,10 @@ void set_again(PageData& data, const dem::Scenario& scenario, const Again& again
     source.set("text", with_short_words(text));
     source.set("href", data_uri(text, "x.toml"));
     sources.push_back(source);
-    if (!place.shipped) saved.push_back(name);
   }
   data.set("sources", sources);
-  data.set("command", again.command);
-  data.set("has_saved", !saved.empty());
-  data.set("saved", listed(saved));
-  data.set("has_needs", !again.needs.empty());
-  data.set("needs", again.needs);
+  data.set("again", way(scenario, options.again));
+  data.set("again_installed", way(scenario, options.again_installed));
 }
 
 }  // namespace
@@ -202,7 +214,7 @@ std::string page(const StudyResult& study, const Comparisons& comparisons, const
   data.set("notes", notes_data(study));
   data.set("choices", list_of(choices));
   set_citations(data, study, options);
-  set_again(data, scenario, options.again);
+  set_again(data, scenario, options);
   data.set("since", images == Images::embedded ? options.since_reference.shown : options.since_reference.printed);
   return pattern.render(data);
 }

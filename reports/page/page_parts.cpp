@@ -14,6 +14,7 @@
 #include "engine/model/quantities.h"
 #include "reports/page/page.h"
 #include "reports/page/page_tables.h"
+#include "reports/provenance.h"
 #include "reports/text.h"
 
 namespace reports {
@@ -228,10 +229,10 @@ PageData title_data(const StudyResult& study, const ReportOptions& options) {
   const std::string specimen = specimen_text(study);
   data.set("has_specimen", !specimen.empty());
   data.set("specimen", specimen);
-  const auto with_record = std::ranges::find_if(study.cases, [](const CaseResult& c) { return c.record != nullptr; });
-  const std::string physics = with_record == study.cases.end() ? "" : with_record->record->physics_version;
-  data.set("has_physics", !physics.empty());
-  data.set("physics_version", physics);
+  const Provenance origin = provenance_of(study, options.engine_version);
+  data.set("has_physics", !origin.physics_version.empty());
+  data.set("physics_version", origin.physics_version);
+  data.set("scenario_sha256", origin.scenario_sha256);
   const auto done = std::ranges::count_if(study.cases, [](const CaseResult& c) { return c.record != nullptr; });
   data.set("case_count", static_cast<std::size_t>(done) == study.cases.size()
                              ? fmt::format("{}", done)

@@ -141,11 +141,11 @@ TEST_CASE("wrong usage is told with what would be right") {
 namespace {
 
 /// What makes the report of `file` again, by the words of a command line.
-reports::Again again(const std::string& file, Texts words = {}) {
+reports::Again again(const std::string& file, Texts words = {}, cli::Home home = cli::Home::clone) {
   words.insert(words.begin(), file);
   const cli::RunRequest line = request(words);
   const dem::Study study = dem::read_study(file, line.scale, line.overrides, dem::models());
-  return cli::how_again(line, study.scenario, DEM_SOURCE_DIR "/scenarios");
+  return cli::how_again(line, study.scenario, DEM_SOURCE_DIR "/scenarios", home);
 }
 
 }  // namespace
@@ -191,6 +191,35 @@ TEST_CASE("the command that makes a report again works in a clone and names no f
                   dem::read_file(DEM_SOURCE_DIR "/scenarios/rocks/my_rock.toml") + "# mine\n");
   CHECK(again(folder / "own/my_rock.toml").command ==
         "./dem-report my_rock.toml --set 'include=\"rock_my_rock.toml\"'");
+}
+
+TEST_CASE("where the program is installed, its scenarios are named where the package has them") {
+  const auto installed = [](const std::string& file, const Texts& words = {}) {
+    return again(file, words, cli::Home::installed);
+  };
+  const std::string shipped = DEM_SOURCE_DIR "/scenarios/ldb_minerals.toml";
+  CHECK(installed(shipped, {"--scale", "smoke"}).command ==
+        "dem-report /usr/share/dem-report/scenarios/ldb_minerals.toml --scale smoke");
+  CHECK(installed(shipped).scenario.shipped);
+
+  const test::Scratch folder;
+  std::filesystem::create_directories(folder / "rocks");
+  dem::write_file(folder / "ldb_minerals.toml", dem::read_file(shipped) + "\n# mine\n");
+  dem::write_file(folder / "rocks/lac_du_bonnet.toml",
+                  dem::read_file(DEM_SOURCE_DIR "/scenarios/rocks/lac_du_bonnet.toml"));
+  CHECK(installed(folder / "ldb_minerals.toml").command ==
+        "dem-report ldb_minerals.toml --set 'include=\"/usr/share/dem-report/scenarios/rocks/lac_du_bonnet.toml\"'");
+
+  // A map lies beside its scenario: where only root may put one, the scenario is saved beside the map.
+  const Texts map = {"--scale", "smoke",
+                     "--set",   "grains.source=\"file\"",
+                     "--set",   "grains.file=\"" DEM_SOURCE_DIR "/tests/fuzz/corpus/elle/two_flynns.elle\""};
+  const reports::Again sheet = installed(DEM_SOURCE_DIR "/scenarios/elle_polycrystal.toml", map);
+  CHECK(sheet.command ==
+        "dem-report elle_polycrystal.toml --scale smoke --set 'grains.source=\"file\"' --set "
+        "'grains.file=\"two_flynns.elle\"'");
+  CHECK_FALSE(sheet.scenario.shipped);
+  CHECK(sheet.needs == "two_flynns.elle");
 }
 
 TEST_CASE("a report of one figure or one case has a folder of its own") {

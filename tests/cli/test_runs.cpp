@@ -89,7 +89,8 @@ TEST_CASE("a run leaves what it promises, a second one keeps it, and both give t
   CHECK(has(first.err, id + " ("));
   CHECK(has(first.err, "starting, no record yet"));
   const fs::path out = output(folder.path());
-  for (const char* name : {"report.html", "summary.json", "run.json", "figures", "data"}) {
+  for (const char* name :
+       {"report.html", "summary.json", "run.json", "ro-crate-metadata.json", "inputs", "figures", "data"}) {
     CAPTURE(name);
     CHECK(fs::exists(out / name));
   }
@@ -284,6 +285,7 @@ TEST_CASE("the same scenario gives the same report from any folder, by any path,
   };
   const Texts first = made(home, {"ldb_texture.toml", "--threads", "1"});
   CHECK(has(first[0], "./dem-report scenarios/ldb_texture.toml"));
+  CHECK(has(first[0], "dem-report /usr/share/dem-report/scenarios/ldb_texture.toml"));
   const Texts second = made(away, {(home / "ldb_texture.toml").string(), "--threads", "2"});
   const Texts third = made(away, {"../../home/rocks/../ldb_texture.toml", "--threads", "1"});
   for (const Texts& other : {second, third}) {

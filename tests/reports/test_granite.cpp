@@ -297,7 +297,7 @@ TEST_CASE("published numbers of the granite are compared with fits, means and tr
   CHECK(residual.outcome == reports::Verdict::met);
   CHECK(has(residual.detail, "not run: 5, 20, 60"));
   CHECK(has(residual.detail, "p = "));
-  const auto json = reports::summary_json(made.study(), {"", "", rows}, {});
+  const auto json = reports::summary_json(made.study(), {"", "", rows}, {}, "0.1.0");
   CHECK(has(json, "\"p_value\": "));
   REQUIRE(m.estimate);
   CHECK(m.estimate->low < 29);

@@ -172,9 +172,13 @@ TEST_CASE("summary.json has the promised structure") {
   study.record("compression_ar_1").put(dem::texture::quantity::residual_over_peak, std::nan(""));
   const auto result = study.result();
   const auto comparisons = reports::compare(result, std::filesystem::path(DEM_SOURCE_DIR) / "assets/papers");
-  const std::string text = reports::summary_json(result, comparisons, {});
+  const std::string text = reports::summary_json(result, comparisons, {}, "0.1.0");
   const auto json = nlohmann::json::parse(text);
-  CHECK(json.at("format") == 3);
+  CHECK(json.at("format") == 4);
+  CHECK(json.at("provenance").at("engine_version") == "0.1.0");
+  CHECK(json["provenance"].at("physics_version") == study.record("compression_ar_1").physics_version);
+  CHECK(json["provenance"].at("seed") == study.result().scenario->seed());
+  CHECK(json["provenance"].at("scenario_sha256").get<std::string>().size() == 64);
   CHECK(json.at("quantities").at("young_modulus").at("unit") == "GPa");
   CHECK(json["quantities"].at("contact_share.*").at("kind") == "result");
   CHECK_FALSE(json["quantities"].contains("gap_share"));
@@ -201,7 +205,7 @@ TEST_CASE("summary.json has the promised structure") {
       CHECK(row.contains(key));
     CHECK(row.at("verdict") != "met");  // the published numbers belong to another scale
   }
-  CHECK(text == reports::summary_json(study.result(), comparisons, {}));
+  CHECK(text == reports::summary_json(study.result(), comparisons, {}, "0.1.0"));
 }
 
 TEST_CASE("run.json nests by dots") {
@@ -244,7 +248,8 @@ TEST_CASE("seeds are whole in summary.json: as numbers while a double holds them
                                      .cases = {{"a", record.parameters, &record, ""}},
                                      .quantities = dem::texture::quantities(),
                                      .parameters = dem::texture::parameters()};
-    CHECK(reports::summary_json(study, {"", "", {}}, {}).find("\"seed\": " + written + "\n") != std::string::npos);
+    CHECK(reports::summary_json(study, {"", "", {}}, {}, "0.1.0").find("\"seed\": " + written + "\n") !=
+          std::string::npos);
   }
 }
 
