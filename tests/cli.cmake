@@ -6,7 +6,10 @@ dem_test(test_runs SOURCES cli/test_runs.cpp cli/program.cpp LIBRARIES dem_core)
 dem_test(test_night SOURCES cli/test_night.cpp cli/program.cpp LIBRARIES dem_core)
 dem_test(test_tools SOURCES cli/test_tools.cpp cli/program.cpp LIBRARIES dem_core)
 dem_test(test_shells SOURCES cli/test_shells.cpp cli/program.cpp LIBRARIES dem_commands)
-foreach(test test_shells test_usage test_runs test_night test_tools)
+dem_test(test_install SOURCES cli/test_install.cpp cli/program.cpp LIBRARIES dem_core)
+target_compile_definitions(test_install PRIVATE DEM_BUILD_DIR="${PROJECT_BINARY_DIR}")
+add_dependencies(test_install dem_shown)
+foreach(test test_install test_shells test_usage test_runs test_night test_tools)
   target_compile_definitions(${test} PRIVATE DEM_PROGRAM="$<TARGET_FILE:dem-report>")
   add_dependencies(${test} dem-report)
 endforeach()
@@ -19,6 +22,10 @@ set_tests_properties(test_launcher PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
 add_test(NAME test_pages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/page/run $<TARGET_FILE:dem-report>
                                  ${CMAKE_CURRENT_BINARY_DIR}/pages)
 set_tests_properties(test_pages PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200)
+
+# The Debian package in a bare system. Minutes, and the network: not in tests/run. Exit code 77: not on this machine.
+add_test(NAME test_package COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/package/run ${PROJECT_BINARY_DIR})
+set_tests_properties(test_package PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 LABELS "package")
 
 # All scenarios at smoke scale against what was accepted. Exit code 77: there are no references.
 add_test(NAME test_references
