@@ -17,15 +17,15 @@ set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGE_CONTACT "${DEM_MAINTAINER}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "discrete element studies of brittle rock, from scenario to report")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
-    "Simulates the cases of a scenario file and reports them in HTML and PDF: crack
-maps, stress-strain and energy plots, every published number beside ours. Three
-models: a grain texture model of granite, a close-packed lattice, and a sheet of
-springs on grown grains. Compares reports with references, night by night.")
+    "Simulates the cases of a scenario file and reports them in HTML and PDF:
+crack maps, stress-strain and energy plots, published numbers beside ours.
+Three models: a grain texture model of granite, a close-packed lattice, and
+a sheet of springs on grown grains. Compares reports with references, night
+by night.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_PACKAGE_DIRECTORY ${kept})
 set(CPACK_STRIP_FILES ON)
-set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ
-    WORLD_EXECUTE)
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/packaging/permissions.cmake)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)

@@ -50,11 +50,12 @@ std::uint64_t units_apart(double a, double b) {
                : static_cast<std::uint64_t>(y) - static_cast<std::uint64_t>(x);
 }
 
-std::string change_text(double was, double is) {
+/// `same_input`: then rounding is what tells two numbers so near each other apart.
+std::string change_text(double was, double is, bool same_input) {
   const std::uint64_t units = units_apart(was, is);
   if (units <= 64) {
-    return fmt::format("{} unit{} in the last place: other rounding, as by another compiler or flag", units,
-                       units == 1 ? "" : "s");
+    return fmt::format("{} unit{} in the last place{}", units, units == 1 ? "" : "s",
+                       same_input ? ": other rounding, as by another compiler or flag" : "");
   }
   if (was == 0) return reports::with_sign(reports::number(is - was, 3));
   const double relative = (is - was) / std::abs(was);
@@ -140,7 +141,8 @@ class Comparer {
       if (!item.lines.empty()) {
         item.state = State::beyond;
         item.difference = fmt::format("{} key{} changed", item.lines.size(), item.lines.size() == 1 ? "" : "s");
-        item.tolerance = "none: the input";
+        item.tolerance = "none (input)";
+        other_input_.insert(now.id);
       }
       for (const std::string& line : item.lines) {
         const auto [at, is_new] = causes.try_emplace(line, result_.causes.size());
@@ -248,7 +250,9 @@ class Comparer {
         if (std::abs(now.numbers[i] - before.numbers[i]) > std::abs(now.numbers[worst] - before.numbers[worst]))
           worst = i;
       }
-      item.difference = change_text(before.numbers[worst], now.numbers[worst]);
+      const std::string id = case_of(now);
+      const bool same_input = id.empty() ? other_input_.empty() : !other_input_.contains(id);
+      item.difference = change_text(before.numbers[worst], now.numbers[worst], same_input);
       if (now.numbers.size() == 1) {
         std::tie(item.was, item.is) = numbers_text(before.numbers[0], now.numbers[0], now.unit);
         if (!before.words.empty()) item.was += ", " + before.words;
@@ -278,7 +282,7 @@ class Comparer {
     }
     const std::string id = case_of(now);
     if (id.empty() ? other_physics_.empty() : !other_physics_.contains(id)) {
-      item.tolerance = "none: the same physics version gives the same bits";
+      item.tolerance = "none (the same physics version gives the same bits)";
       return State::beyond;
     }
     if (const auto band = scatter(now)) {
@@ -286,7 +290,7 @@ class Comparer {
                                    now.unit, band->second);
       return all_within([&](double) { return band->first; }) ? State::within_scatter : State::beyond;
     }
-    item.tolerance = "none: another physics version, and fewer than three seeds to tell the scatter from";
+    item.tolerance = "none (another physics version, and fewer than three seeds to tell the scatter from)";
     return State::beyond;
   }
 
@@ -335,8 +339,8 @@ class Comparer {
     std::ranges::stable_sort(item.overlays, std::greater{}, &Overlay::distance);
     if (item.overlays.size() > 3) item.overlays.resize(3);
     item.state = State::beyond;
-    item.tolerance = "none: the same physics version gives the same bits";
-    if (!other_physics_.empty()) item.tolerance = "none is set for curves of another physics version";
+    item.tolerance = "none (the same physics version gives the same bits)";
+    if (!other_physics_.empty()) item.tolerance = "none (not set for curves of another physics version)";
     if (worst > 0) {
       item.difference = reports::percent(worst, worst < 0.001 ? 4 : 2) + " of the range at most";
     } else if (item.lines.empty()) {
@@ -422,7 +426,7 @@ class Comparer {
       item.difference = was.pixels.empty() && was.png.empty() ? "the drawing" : "the picture";
       item.difference +=
           was.svg.empty() && was.png.empty() ? " changed; the reference keeps no copy of the old one" : " changed";
-      item.tolerance = "none for drawings";
+      item.tolerance = "none (drawing)";
       const auto show = [&](const std::string& label, const Picture& picture) {
         if (!picture.svg.empty()) item.pictures.push_back({label, "image/svg+xml", dem::read_file(picture.svg)});
         if (picture.svg.empty() && !picture.png.empty())
@@ -533,6 +537,7 @@ class Comparer {
   const Options& options_;
   StudyComparison result_;
   std::set<std::string> other_physics_;  // cases
+  std::set<std::string> other_input_;    // cases of which a key changed
 };
 
 }  // namespace

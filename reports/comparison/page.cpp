@@ -10,6 +10,7 @@
 #include "engine/core/base64.h"
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
+#include "engine/scenario/units.h"
 #include "reports/text.h"
 
 namespace comparison {
@@ -49,11 +50,13 @@ std::string points_text(const std::vector<std::pair<double, double>>& points, co
                         const double (&scale)[2]) {
   std::string text;
   for (const auto& [x, y] : points) {
-    text += fmt::format("{}{:.1f},{:.1f}", text.empty() ? "" : " ", 52 + 400 * (x - low[0]) / scale[0],
+    text += fmt::format("{}{:.1f},{:.1f}", text.empty() ? "" : " ", 84 + 368 * (x - low[0]) / scale[0],
                         174 - 160 * (y - low[1]) / scale[1]);
   }
   return text;
 }
+
+std::string name_of(const Curve& curve) { return (curve.key.empty() ? "" : curve.key + ": ") + curve.y; }
 
 /// Old and new over each other.
 std::string overlay_svg(const Overlay& overlay) {
@@ -85,14 +88,14 @@ std::string overlay_svg(const Overlay& overlay) {
     }
     return text;
   };
-  const std::string title = escaped((overlay.is.key.empty() ? "" : overlay.is.key + ": ") + overlay.is.y);
+  const std::string title = escaped(name_of(overlay.is));
   return fmt::format(
       "<svg viewBox=\"0 0 460 206\" role=\"img\" aria-label=\"{}, old and new; they differ by {} of the range at "
       "most\">"
-      "<path class=\"frame\" d=\"M52 10V174H456\"/>{}{}"
-      "<text x=\"48\" y=\"18\" text-anchor=\"end\">{}</text><text x=\"48\" y=\"174\" text-anchor=\"end\">{}</text>"
-      "<text x=\"52\" y=\"188\">{}</text><text x=\"456\" y=\"188\" text-anchor=\"end\">{}</text>"
-      "<text x=\"254\" y=\"202\" text-anchor=\"middle\">{}</text></svg>",
+      "<path class=\"frame\" d=\"M84 10V174H456\"/>{}{}"
+      "<text x=\"80\" y=\"18\" text-anchor=\"end\">{}</text><text x=\"80\" y=\"174\" text-anchor=\"end\">{}</text>"
+      "<text x=\"84\" y=\"188\">{}</text><text x=\"456\" y=\"188\" text-anchor=\"end\">{}</text>"
+      "<text x=\"270\" y=\"202\" text-anchor=\"middle\">{}</text></svg>",
       title, reports::percent(overlay.distance, overlay.distance < 0.001 ? 4 : 2), curve(overlay.was, "was"),
       curve(overlay.is, "is"), reports::number(high[1], 3), reports::number(low[1], 3), reports::number(low[0], 3),
       reports::number(high[0], 3), escaped(overlay.is.x));
@@ -107,9 +110,32 @@ void flag(Data& data, const std::string& name, bool value) {
   data.set(name, Data{value ? Data::type::bool_true : Data::type::bool_false});
 }
 
+/// An id that may be broken where a reader would.
+std::string breakable(const std::string& id) {
+  std::string all;
+  for (const char c : id) {
+    all += escaped(std::string(1, c));
+    if (c == '/' || c == '_' || c == '.') all += "<wbr>";
+  }
+  return all;
+}
+
+/// A cell of a table: there is nothing to draw.
+bool is_one_point(const Overlay& overlay) { return overlay.was.points.size() == 1 && overlay.is.points.size() == 1; }
+
+std::string cell_text(const Overlay& overlay) {
+  const double was = overlay.was.points[0].second, is = overlay.is.points[0].second;
+  for (const int digits : {4, 7}) {
+    const std::string a = reports::number(was, digits), b = reports::number(is, digits);
+    if (a != b) return name_of(overlay.is) + ": " + a + " → " + b;
+  }
+  return name_of(overlay.is) + ": " + dem::shortest(was) + " → " + dem::shortest(is);
+}
+
 Data item_data(const Item& item, std::size_t& room) {
   Data data;
   set(data, "id", item.id);
+  data.set("id_html", breakable(item.id));
   set(data, "name", item.name == item.id ? "" : item.name);
   data.set("state", std::string(state_words(item.state)));
   data.set("state_class", item.alarms() ? "bad" : "good");
@@ -117,33 +143,41 @@ Data item_data(const Item& item, std::size_t& room) {
   set(data, "is", item.is);
   set(data, "difference", item.difference);
   set(data, "tolerance", item.tolerance);
+  std::vector<std::string> all_lines = item.lines;
+  std::vector<const Overlay*> drawn;
+  for (const Overlay& overlay : item.overlays) {
+    if (is_one_point(overlay)) {
+      all_lines.push_back(cell_text(overlay));
+    } else {
+      drawn.push_back(&overlay);
+    }
+  }
   Data lines{Data::type::list};
-  for (std::size_t i = 0; i < std::min(item.lines.size(), most_lines); ++i) {
+  for (std::size_t i = 0; i < std::min(all_lines.size(), most_lines); ++i) {
     Data line;
-    const std::string& text = item.lines[i];
+    const std::string& text = all_lines[i];
     line.set("line", text);
     line.set("line_class", text.starts_with("- ") ? "old" : text.starts_with("+ ") ? "new" : "key");
     lines.push_back(line);
   }
-  if (item.lines.size() > most_lines) {
+  if (all_lines.size() > most_lines) {
     Data line;
-    line.set("line", fmt::format("and {} more", item.lines.size() - most_lines));
+    line.set("line", fmt::format("and {} more", all_lines.size() - most_lines));
     line.set("line_class", "key");
     lines.push_back(line);
   }
   data.set("lines", lines);
-  flag(data, "has_lines", !item.lines.empty());
+  flag(data, "has_lines", !all_lines.empty());
   Data overlays{Data::type::list};
-  for (const Overlay& overlay : item.overlays) {
+  for (const Overlay* overlay : drawn) {
     Data one;
-    one.set("svg", overlay_svg(overlay));
-    const std::string& y = overlay.is.y;
-    one.set("caption", (overlay.is.key.empty() ? y : overlay.is.key + ": " + y));
-    one.set("apart", reports::percent(overlay.distance, overlay.distance < 0.001 ? 4 : 2));
+    one.set("svg", overlay_svg(*overlay));
+    one.set("caption", name_of(overlay->is));
+    one.set("apart", reports::percent(overlay->distance, overlay->distance < 0.001 ? 4 : 2));
     overlays.push_back(one);
   }
   data.set("overlays", overlays);
-  flag(data, "has_overlays", !item.overlays.empty());
+  flag(data, "has_overlays", !drawn.empty());
   std::size_t bytes = 0;
   for (const Shown& shown : item.pictures) bytes += shown.bytes.size();
   const bool fits = bytes <= room;

@@ -88,8 +88,12 @@ std::string sparkline(const Line& line) {
 }
 
 std::string step_text(const Line& line, const Step& step) {
-  return fmt::format("{} → {} at {}", reports::number(step.before, 4), reports::number(step.after, 4),
-                     line.series.labels[step.at]);
+  std::string before, after;
+  for (const int digits : {4, 7, 17}) {  // enough to tell them apart
+    before = reports::number(step.before, digits), after = reports::number(step.after, digits);
+    if (before != after) break;
+  }
+  return fmt::format("{} → {} at {}", before, after, line.series.labels[step.at]);
 }
 
 Data row_data(const StudyRow& row, const History* history) {

@@ -174,7 +174,7 @@ void set_again(PageData& data, const dem::Scenario& scenario, const ReportOption
   }
   data.set("sources", sources);
   data.set("again", way(scenario, options.again));
-  data.set("again_installed", way(scenario, options.again_installed));
+  if (!options.again_installed.command.empty()) data.set("again_installed", way(scenario, options.again_installed));
 }
 
 }  // namespace

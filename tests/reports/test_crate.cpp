@@ -34,6 +34,7 @@ void make(const synthetic::Study& study, const fs::path& folder, const std::stri
   options.assets = assets;
   options.engine_version = "0.1.0";
   options.pdf = false;
+  options.dpi = 72;
   options.only = "stress_strain";
   options.again.command = "./dem-report mine.toml --scale draft";
   options.date = [date] { return date; };
@@ -71,6 +72,7 @@ std::string decoded(const std::string& uri) {
   return all;
 }
 
+const synthetic::Options small{.diameter = 3e-3, .height = 6e-3, .samples = 5};
 const std::string first_date = "2026-01-31T12:00:00+00:00", second_date = "2026-02-01T12:00:00+00:00";
 
 /// Every link leads to an entity of the file; `of` an entity.
@@ -151,7 +153,7 @@ void check_rules(const fs::path& folder) {
 
 TEST_CASE("a report folder is a crate: every file with its hash, the inputs beside it, and the run that made it") {
   const test::Scratch scratch;
-  const synthetic::Study study(scratch.path());
+  const synthetic::Study study(scratch.path(), small);
   const fs::path folder = scratch / "out";
   make(study, folder, first_date);
   check_rules(folder);
@@ -175,7 +177,7 @@ TEST_CASE("a report folder is a crate: every file with its hash, the inputs besi
 
 TEST_CASE("the date stays while nothing else changes, and a file of before does not outlive what it describes") {
   const test::Scratch scratch;
-  const synthetic::Study study(scratch.path());
+  const synthetic::Study study(scratch.path(), small);
   const fs::path folder = scratch / "out";
   make(study, folder, first_date);
   const std::string first = text(folder);
@@ -191,7 +193,7 @@ TEST_CASE("the date stays while nothing else changes, and a file of before does 
 
 TEST_CASE("a case that failed makes the run a failed one; names of files are URIs") {
   const test::Scratch scratch;
-  synthetic::Study study(scratch.path());
+  synthetic::Study study(scratch.path(), small);
   study.fail("direct_tension_ar_3", "the solution blew up");
   const fs::path folder = scratch / "out";
   make(study, folder, first_date);
