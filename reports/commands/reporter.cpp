@@ -65,10 +65,13 @@ bool all_well(const std::vector<dem::CaseOutcome>& outcomes) {
 
 /// Now, or the moment that SOURCE_DATE_EPOCH stands for, as in the PDF.
 std::string date_of_report() {
+  constexpr std::time_t last = 253402300799;  // of the year 9999
   std::time_t seconds = std::time(nullptr);
   if (const char* asked = std::getenv("SOURCE_DATE_EPOCH")) {
     const std::string_view text(asked);
-    std::from_chars(text.data(), text.data() + text.size(), seconds);  // check_printing() refuses what is none
+    std::time_t there = -1;  // check_printing() refuses what is no moment; without a PDF nobody looks
+    std::from_chars(text.data(), text.data() + text.size(), there);
+    if (there >= 0 && there <= last) seconds = there;
   }
   return fmt::format("{:%Y-%m-%dT%H:%M:%S}+00:00", fmt::gmtime(seconds));
 }
