@@ -58,14 +58,14 @@ BandFit densest_band(std::span<const double> crack, std::span<const double> area
                      std::span<const double> volume, double thickness) {
   const double all_area = std::accumulate(area.begin(), area.end(), 0.0);
   const double all_volume = std::accumulate(volume.begin(), volume.end(), 0.0);
-  if (!(all_area > 0) || !(all_volume > 0) || !(thickness > 0)) return {none, none, none};
+  if (!(all_area > 0) || !(all_volume > 0) || !(thickness > 0)) return {none, none, none, {}, none};
   double reach = 0;
   for (std::size_t i = 0; i < volume.size(); ++i) {
     reach = std::max(reach, std::hypot(particle[3 * i], particle[3 * i + 1], particle[3 * i + 2]));
   }
   const double low = -reach - thickness, width = thickness / parts;
   const auto bins = static_cast<std::size_t>(std::ceil(2 * (reach + thickness) / width));
-  BandFit best{none, none, none};
+  BandFit best{none, none, none, {}, none};
   double excess = -1;
   for (int inclination = 0; inclination <= 90; inclination += 5) {
     for (int azimuth = 0; azimuth < 360; azimuth += 10) {
@@ -80,7 +80,8 @@ BandFit densest_band(std::span<const double> crack, std::span<const double> area
         const double filled = std::accumulate(&volumes[k], &volumes[k] + parts, 0.0) / all_volume;
         if (!(inside - filled > excess) || !(filled > 0)) continue;
         excess = inside - filled;
-        best = {static_cast<double>(inclination), inside, filled};
+        best = {static_cast<double>(inclination), inside, filled, normal,
+                low + width * (static_cast<double>(k) + 0.5 * parts)};
       }
     }
   }

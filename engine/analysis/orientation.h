@@ -26,6 +26,8 @@ Orientation orientation_of(const dem::Table& cracks, std::size_t first, int mode
 struct BandFit {
   double inclination = 0;         ///< degrees between the band and the loading axis
   double cracks = 0, volume = 0;  ///< shares inside the band
+  std::array<double, 3> normal{};
+  double offset = 0;  ///< of its middle from the origin, along the normal
   [[nodiscard]] double concentration() const { return cracks / volume; }
   [[nodiscard]] double excess() const { return cracks - volume; }
 };

@@ -113,7 +113,7 @@ double strain_at(const std::vector<HistoryRow>& h, double step) {
 
 // Cracks up to the end of the test; those of a test that was followed further are in its history.
 Table crack_table(const Specimen& specimen, const Loading& loading, double last_step) {
-  std::vector<double> time, strain, position, normal, area;
+  std::vector<double> time, strain, position, normal, area, released, force;
   std::vector<std::int32_t> mode, place, mineral_a, mineral_b, contact;
   for (const Crack& c : loading.assembly().cracks()) {
     if (c.step > last_step) break;
@@ -126,6 +126,8 @@ Table crack_table(const Specimen& specimen, const Loading& loading, double last_
     position.insert(position.end(), c.position.begin(), c.position.end());
     normal.insert(normal.end(), c.normal.begin(), c.normal.end());
     area.push_back(c.area);
+    released.push_back(c.released);
+    force.insert(force.end(), c.force.begin(), c.force.end());
     mineral_a.push_back(std::min(mineral(bond.first), mineral(bond.second)));
     mineral_b.push_back(std::max(mineral(bond.first), mineral(bond.second)));
     contact.push_back(c.contact);
@@ -141,6 +143,8 @@ Table crack_table(const Specimen& specimen, const Loading& loading, double last_
   t.add("mineral_a", "", std::move(mineral_a));
   t.add("mineral_b", "", std::move(mineral_b));
   t.add("contact", "", std::move(contact));
+  t.add("released", "J", std::move(released));  // records made before have neither this nor
+  t.add("force", "N", std::move(force), 3);     // what the bond did on its second particle, let go
   return t;
 }
 

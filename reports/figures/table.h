@@ -18,9 +18,14 @@ FigureContent initiation_readings(const StudyResult& study);
 FigureContent confinement_curves(const StudyResult& study);
 FigureContent confinement_envelopes(const StudyResult& study);
 FigureContent confinement_after_peak(const StudyResult& study);
+FigureContent confinement_mohr(const StudyResult& study);
 FigureContent confinement_crack_maps(const StudyResult& study);
 FigureContent confinement_crack_counts(const StudyResult& study);
 FigureContent crack_orientation(const StudyResult& study);
+FigureContent crack_directions(const StudyResult& study);
+FigureContent fragments(const StudyResult& study);
+FigureContent displacement_jump(const StudyResult& study);
+FigureContent acoustic_emission(const StudyResult& study);
 FigureContent dip_clusters(const StudyResult& study);
 FigureContent dip_crack_maps(const StudyResult& study);
 FigureContent dip_crack_counts(const StudyResult& study);
@@ -57,6 +62,8 @@ FigureContent heat_tension(const StudyResult& study);
 FigureContent ledger(const StudyResult& study);
 FigureContent crack_maps(const StudyResult& study);
 FigureContent crack_front(const StudyResult& study);
+FigureContent fragments(const StudyResult& study);
+FigureContent acoustic_emission(const StudyResult& study);
 
 }  // namespace reports::lattice
 

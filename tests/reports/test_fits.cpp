@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/analysis/fits.h"
+#include "engine/analysis/mohr.h"
 
 using doctest::Approx;
 
@@ -143,4 +144,35 @@ TEST_CASE("what cannot be fitted is not") {
   REQUIRE(two);
   CHECK(two->m.value == Approx(29));
   CHECK_FALSE(two->m.has_interval());
+}
+
+TEST_CASE("circles of a straight envelope touch it, and Coulomb's numbers come back") {
+  const double phi = 50 * 3.14159265358979323846 / 180, c = 30, n = (1 + std::sin(phi)) / (1 - std::sin(phi));
+  const std::vector<double> sigma_3{0, 10, 20, 40};
+  std::vector<double> sigma_1;
+  for (const double s : sigma_3) sigma_1.push_back(2 * c * std::sqrt(n) + n * s);
+  const auto fit = dem::analysis::fit_coulomb(sigma_3, sigma_1);
+  REQUIRE(fit);
+  CHECK(fit->cohesion == Approx(c));
+  CHECK(fit->friction_angle.value == Approx(50));
+  CHECK(fit->friction_angle.low == Approx(50));
+  for (std::size_t i = 0; i < sigma_3.size(); ++i) {
+    const auto at = dem::analysis::touching(sigma_3[i], sigma_1[i], n);
+    CHECK(at.shear == Approx(fit->shear_at(at.normal)));
+    CHECK(std::hypot(at.normal - 0.5 * (sigma_1[i] + sigma_3[i]), at.shear) == Approx(0.5 * (sigma_1[i] - sigma_3[i])));
+  }
+  CHECK_FALSE(dem::analysis::fit_coulomb(std::vector{0.0, 10.0}, std::vector{100.0, 105.0}));  // no friction
+  CHECK_FALSE(dem::analysis::fit_coulomb(std::vector{5.0, 5.0}, std::vector{100.0, 105.0}));
+}
+
+TEST_CASE("a circle of Mohr runs from the small to the large stress, and p and q are those of a cylinder") {
+  const auto circle = dem::analysis::mohr_circle(10, 110, 4);
+  REQUIRE(circle.size() == 5);
+  CHECK(circle.front().normal == Approx(10));
+  CHECK(circle[2].normal == Approx(60));
+  CHECK(circle[2].shear == Approx(50));
+  CHECK(circle.back().normal == Approx(110));
+  CHECK(circle.back().shear == 0);
+  CHECK(dem::analysis::invariants(10, 110).p == Approx(130.0 / 3));
+  CHECK(dem::analysis::invariants(10, 110).q == Approx(100));
 }

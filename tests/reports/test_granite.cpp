@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "engine/analysis/orientation.h"
+#include "render/chart/layout.h"
 #include "reports/figures/table.h"
 #include "reports/figures/texture/parts.h"
 #include "reports/output/summary.h"
@@ -234,6 +235,74 @@ TEST_CASE("figures show what the paper states beside ours, and nothing for anoth
                                               {"UCS (MPa)", "200–228"},
                                               {"TS (MPa)", "9.3–13.4"},
                                               {"m", "28–34"}});
+}
+
+TEST_CASE("circles of Mohr are those of the mean peaks, round, and touched by the envelope") {
+  Made made("ldb_confinement");
+  for (const double pressure : {0.0, 10.0, 40.0}) {
+    made.add_confined(pressure, "", -4, 1);
+    made.add_confined(pressure, "", +4, 2);
+  }
+  auto content = reports::texture::confinement_mohr(made.study());
+  reports::lay_out(content.panels);
+  const auto& chart = std::get<render::Chart>(content.panels.front().content);
+  std::vector<std::array<double, 2>> circles;  // middle, radius
+  for (const render::Series& s : chart.series) {
+    if (s.y.front() != 0 || s.y.back() != 0) continue;
+    circles.push_back({0.5 * (s.x.front() + s.x.back()), 0.5 * (s.x.back() - s.x.front())});
+  }
+  REQUIRE(circles.size() == 3);
+  CHECK(circles[0][1] == Approx(0.5 * 206));
+  CHECK(circles[2][0] == Approx(0.5 * (40 + dem::analysis::hoek_brown(40, 206, 29, 1))));
+  const auto envelope = std::ranges::find(chart.series, "Hoek-Brown, peak", &render::Series::label);
+  REQUIRE(envelope != chart.series.end());
+  for (const auto& [middle, radius] : circles) {
+    double least = 1e9;
+    for (std::size_t i = 0; i < envelope->x.size(); ++i)
+      least = std::min(least, std::hypot(envelope->x[i] - middle, envelope->y[i]));
+    CHECK(least == Approx(radius).epsilon(2e-3));
+  }
+  const render::Rect area{0, 0, static_cast<double>(chart.width), static_cast<double>(chart.height)};
+  const render::ChartLayout layout = render::lay_out(chart, area, 12, chart.legend);
+  const double across = layout.across(100) - layout.across(0);
+  const double up = layout.down(0, render::Side::left) - layout.down(100, render::Side::left);
+  CHECK(up == Approx(across).epsilon(0.03));
+}
+
+TEST_CASE("a specimen that is cut through is two parts, and a cut is the plane of its poles") {
+  Made made("ldb_confinement");
+  made.add_confined(0);
+  dem::Record& record = made.records.front();
+  const dem::Table& contacts = record.table("contacts");
+  const auto pair = contacts.integer("pair"), kind = contacts.integer("kind");
+  const auto place = record.table("particles").real("position");
+  dem::Table cracks{"cracks", {}, {}};
+  std::vector<double> time, position, normal, area;
+  std::vector<std::int32_t> contact, none;
+  for (std::size_t c = 0; c < kind.size(); ++c) {  // every bond across half the height breaks
+    const double low = place[3 * static_cast<std::size_t>(pair[2 * c]) + 2],
+                 high = place[3 * static_cast<std::size_t>(pair[2 * c + 1]) + 2];
+    if ((low < 3e-3) == (high < 3e-3)) continue;
+    for (int element = 0; element < (kind[c] == 0 ? 3 : 1); ++element) {
+      time.push_back(1e-3);
+      position.insert(position.end(), {0, 0, 3e-3});
+      normal.insert(normal.end(), {0, 0, 1});
+      area.push_back(1e-8);
+      contact.push_back(static_cast<std::int32_t>(c));
+      none.push_back(0);
+    }
+  }
+  REQUIRE(contact.size() > 10);
+  cracks.add("time", "s", time);
+  cracks.add("strain", "1", time);
+  cracks.add("position", "m", position, 3);
+  cracks.add("normal", "1", normal, 3);
+  cracks.add("area", "m^2", area);
+  for (const char* name : {"mode", "place", "mineral_a", "mineral_b"}) cracks.add(name, "", none);
+  cracks.add("contact", "", contact);
+  set_table(record, cracks);
+  CHECK(has(reports::texture::fragments(made.study()).finding, "2 parts above 5 % of the volume"));
+  CHECK(has(reports::texture::crack_directions(made.study()).finding, "dip 0° to"));
 }
 
 TEST_CASE("figures stand with one case and with none") {

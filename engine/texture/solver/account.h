@@ -19,7 +19,9 @@ struct Crack {
   std::int8_t boundary = 0;  ///< 1: between grains
   Vec3 position{};           ///< m
   Vec3 normal{};
-  double area = 0;  ///< m^2
+  double area = 0;      ///< m^2
+  double released = 0;  ///< J, as the ledger counts it
+  Vec3 force{};         ///< N: what the bond did on its second particle just before, less what it does after
 };
 
 /// The energy account, J. residual = work - everything else.

@@ -112,10 +112,11 @@ void break_elements(Block& block, Particles& particles, std::int64_t step, std::
     for (int b = 0; b < result.breaks; ++b) {
       const ElementBreak& e = result.broke[b];
       const double r = joint.law.rho / flat_joint_arm;
-      (e.shear ? block.account.bond_shear : block.account.bond_tension) +=
-          e.released + particles.half_work(joint.first, joint.second, e.removed);
+      const double released = e.released + particles.half_work(joint.first, joint.second, e.removed);
+      (e.shear ? block.account.bond_shear : block.account.bond_tension) += released;
       block.account.cracks.push_back({static_cast<double>(step), joint.contact, static_cast<std::int8_t>(e.shear), 0,
-                                      array(e.position), array(e.normal), std::numbers::pi * r * r / 3});
+                                      array(e.position), array(e.normal), std::numbers::pi * r * r / 3, released,
+                                      array(e.removed.force)});
     }
   }
 }
@@ -142,12 +143,12 @@ void break_bonds(Block& block, Particles& particles, std::int64_t step, std::int
     const bool shear = !(m.gap > bond.opening);
     const Action<double> removed = action(m, stiffness(bond));
     particles.add(first, second, Action<double>{} - removed);
-    (shear ? block.account.bond_shear : block.account.bond_tension) +=
-        energy(m, stiffness(bond)) + particles.half_work(first, second, removed);
+    const double released = energy(m, stiffness(bond)) + particles.half_work(first, second, removed);
+    (shear ? block.account.bond_shear : block.account.bond_tension) += released;
     block.account.cracks.push_back({static_cast<double>(step), block.bond_contact[slot],
                                     static_cast<std::int8_t>(shear), 1,
                                     array(one.x + (get(F::share_one) * m.length) * m.n), array(m.n),
-                                    std::numbers::pi * bond.radius * bond.radius});
+                                    std::numbers::pi * bond.radius * bond.radius, released, array(removed.force)});
     retire(pack, lane);
   }
 }

@@ -1,0 +1,103 @@
+// What holds together after failure, and the emission of the blocks: bonds that break as events.
+#include <cmath>
+
+#include "reports/figures/emission.h"
+#include "reports/figures/fragments.h"
+#include "reports/figures/lattice/parts.h"
+#include "reports/figures/table.h"
+
+namespace reports::lattice {
+namespace {
+
+constexpr int most_cases = 4;
+
+// The main records of both tests, tension with all kinds of planes.
+std::vector<SeriesCase> failed(const StudyResult& study) {
+  std::vector<SeriesCase> cases;
+  const auto add = [&](const dem::Record* record, const std::string& label, const std::string& id) {
+    if (!record || !has_failure(*record) || cases.size() == most_cases) return;
+    SeriesCase item;
+    item.record = record;
+    item.label = label;
+    item.id = id;
+    item.colour = render::palette(cases.size());
+    item.line = render::line_style(cases.size());
+    cases.push_back(item);
+  };
+  add(main_record(study, "compression"), "compression", "compression");
+  for (const dem::Record* record : records_of(study, "tension"))
+    add(record, "tension, planes: " + record->text("planes"), "tension_" + record->text("planes"));
+  return cases;
+}
+
+render::Outline box_of(const dem::Record& record) {
+  const auto place = record.table("particles").real("position"), radius = record.table("particles").real("radius");
+  render::Outline box;
+  box.shape = render::Outline::Shape::box;
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    const double low = place[i] - radius[i / 3], high = place[i] + radius[i / 3];
+    box.low[i % 3] = i < 3 ? low : std::min(box.low[i % 3], low);
+    box.high[i % 3] = i < 3 ? high : std::max(box.high[i % 3], high);
+  }
+  return box;
+}
+
+}  // namespace
+
+FigureContent fragments(const StudyResult& study) {
+  FigureContent content;
+  content.statement = "In tension the block breaks in two.";
+  std::vector<Broken> cases;
+  for (const SeriesCase& item : failed(study)) cases.push_back(broken_of(*item.record, item));
+  if (cases.empty()) return content;
+  constexpr double apart = 0.3;
+  for (const Broken& broken : cases) {
+    const render::Outline box = box_of(*broken.record);
+    content.panels.push_back({.id = "apart_" + broken.id,
+                              .caption =
+                                  "Parts that hold together at the end, each moved from the middle by 0.3 of its "
+                                  "distance; shares are of the volume, the others are numbers.",
+                              .alt = fragments_words(broken) + ".",
+                              .content = fragments_picture(broken, apart, {box.low, box.high}, 480),
+                              .per_row = 3});
+  }
+  content.panels.push_back({.id = "table",
+                            .caption = "Parts at the end of the test.",
+                            .alt = "",
+                            .content = fragments_table(cases),
+                            .per_row = 1});
+  std::vector<std::string> said;
+  bool halves = true, pulled = false;
+  for (const Broken& broken : cases) {
+    said.push_back(fragments_words(broken));
+    if (!broken.id.starts_with("tension")) continue;
+    pulled = true;
+    // Two parts, each more than a third of the block, which hold nine tenths of it together.
+    halves = halves && broken.parts.share(1) > 1.0 / 3 && broken.parts.share(0) + broken.parts.share(1) > 0.9;
+  }
+  content.agreement = !pulled ? Agreement::undecided : halves ? Agreement::agrees : Agreement::disagrees;
+  content.finding = sentence(said);
+  return content;
+}
+
+FigureContent acoustic_emission(const StudyResult& study) {
+  FigureContent content;
+  const dem::Scenario& s = *study.scenario;
+  const double speed =
+      std::sqrt(s.real("rock.young_modulus") / (2 * (1 + s.real("rock.poisson_ratio"))) / s.real("rock.density"));
+  std::vector<Emission> all;
+  for (const SeriesCase& item : failed(study)) {
+    const Emitter of{.window = s.real("emission.window"),
+                     .duration = s.real("emission.duration"),
+                     .shear_wave = speed,
+                     .diameter = 2 * item.record->table("particles").real("radius")[0],
+                     .strain = "axial_strain",
+                     .heat = {"breaking_heat_normal", "breaking_heat_shear"},
+                     .outline = box_of(*item.record)};
+    if (auto found = emission_of(item, of)) all.push_back(std::move(*found));
+  }
+  add_emission(content, all);
+  return content;
+}
+
+}  // namespace reports::lattice

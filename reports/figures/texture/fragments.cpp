@@ -1,0 +1,65 @@
+// What holds together after failure: parts in colours by size and pulled apart, and their sizes.
+#include <fmt/format.h>
+
+#include "reports/figures/fragments.h"
+#include "reports/figures/table.h"
+#include "reports/figures/texture/parts.h"
+
+namespace reports::texture {
+
+FigureContent fragments(const StudyResult& study) {
+  FigureContent content;
+  const auto pressed = swept(study, test_compression), pulled = swept(study, test_tension);
+  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  std::vector<Broken> cases;
+  for (const SeriesCase& item : pressed) cases.push_back(broken_of(*item.record, item));
+  if (!pulled.empty()) {
+    SeriesCase looks = pulled.front();
+    looks.label = "direct tension";
+    looks.id = "tension";
+    looks.colour = {0.35, 0.35, 0.35};
+    looks.line = render::line_style(cases.size());
+    cases.push_back(broken_of(*looks.record, looks));
+  }
+  if (cases.empty()) return content;
+  constexpr double apart = 0.3;
+  const int per_row = cases.size() <= 3 ? 3 : 4;
+  for (const Broken& broken : cases) {
+    content.panels.push_back(
+        {.id = "apart_" + broken.id,
+         .caption =
+             fmt::format("Parts that hold together at the end of the test, each moved from the middle by {:g} of "
+                         "its distance; shares are of the volume, the others are numbers.",
+                         apart),
+         .alt = fragments_words(broken) + ".",
+         .content = fragments_picture(broken, apart, frame_of(size_of(*broken.record)), 480),
+         .per_row = per_row});
+  }
+  std::vector<std::string> said, laws;
+  for (const Broken& broken : cases) {
+    said.push_back(fragments_words(broken));
+    if (const auto law = size_law(broken)) laws.push_back(broken.label + " " + estimate_text(law->exponent, 3));
+  }
+  content.panels.push_back({.id = "numbers",
+                            .caption = "Parts by their number of particles; lines are power laws through all but the "
+                                       "largest, by maximum likelihood.",
+                            .alt = laws.empty() ? "Too few parts for a fit." : "Exponents: " + joined(laws, "; ") + ".",
+                            .content = fragments_by_number(cases),
+                            .per_row = 2});
+  content.panels.push_back({.id = "volumes",
+                            .caption = "Share of the volume in parts up to a size.",
+                            .alt = joined(said, "; ") + ".",
+                            .content = fragments_by_volume(cases),
+                            .per_row = 2});
+  content.panels.push_back({.id = "table",
+                            .caption =
+                                "Parts at the end of the test. The exponent is that of the number n of particles "
+                                "in a part, n to the power of minus it, without the largest.",
+                            .alt = "",
+                            .content = fragments_table(cases),
+                            .per_row = 1});
+  content.finding = joined(said, "; ") + ".";
+  return content;
+}
+
+}  // namespace reports::texture

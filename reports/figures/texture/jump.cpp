@@ -1,0 +1,146 @@
+// Where a specimen comes apart: how far the two sides of the band with most cracks have moved against each other.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/analysis/jump.h"
+#include "reports/figures/table.h"
+#include "reports/figures/texture/band.h"
+#include "reports/figures/texture/parts.h"
+#include "reports/text.h"
+
+namespace reports::texture {
+namespace {
+
+/// The band of a case, and what its sides did.
+struct Across {
+  SeriesCase looks;
+  analysis::BandFit fit;
+  analysis::BandFrame band;
+  analysis::JumpProfile profile;
+  std::optional<analysis::Jump> jump;
+  double strain = 0;  // of the displacements
+};
+
+const dem::Table* last_displacements(const dem::Record& record) {
+  const dem::Table* last = nullptr;
+  for (const dem::Table& table : record.tables)
+    if (table.name.starts_with("snapshots/") && table.has("displacement")) last = &table;
+  return last;
+}
+
+std::optional<Across> across_of(const SeriesCase& item) {
+  const dem::Record& record = *item.record;
+  const dem::Table* end = last_displacements(record);
+  if (!end) return std::nullopt;
+  Across found{.looks = item, .fit = band_of(record, 0).fit, .band = {}, .profile = {}, .jump = {}};
+  if (!std::isfinite(found.fit.offset)) return std::nullopt;
+  const double diameter = mean_diameter(record);
+  const auto points = from_middle(record, record.table("particles").real("position"));
+  const auto moved = end->real("displacement");
+  found.band = analysis::band_frame(found.fit.normal, found.fit.offset, band_diameters * diameter);
+  found.jump = analysis::jump_across(points, moved, found.band);
+  found.profile = analysis::profile_across(points, moved, found.band, diameter, 2.5 * found.band.thickness);
+  const std::string strain = end->attribute("displacement_at_strain");
+  found.strain = strain.empty() ? std::nan("") : std::stod(strain);
+  return found;
+}
+
+render::Chart profile_chart(const Across& across) {
+  render::Chart chart;
+  chart.x.title = "Distance from the middle of the band (mm)";
+  chart.left.title = "Mean displacement (µm)";
+  const auto add = [&](std::string label, std::size_t colour, const std::vector<double>& values) {
+    render::Series series{.label = std::move(label),
+                          .x = {},
+                          .y = {},
+                          .colour = render::palette(colour),
+                          .line = render::line_style(colour),
+                          .marker = render::marker_style(colour),
+                          .y_error = {}};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      series.x.push_back(1e3 * across.profile.distance[i]);
+      series.y.push_back(1e6 * values[i]);
+    }
+    chart.series.push_back(series);
+  };
+  add("across the band", 0, across.profile.across);
+  add("along it, towards the upper end", 1, across.profile.along);
+  for (const double side : {-0.5, 0.5})
+    chart.marks.push_back({.kind = render::Mark::Kind::vertical,
+                           .x = 1e3 * side * across.band.thickness,
+                           .label = side < 0 ? "band" : "",
+                           .colour = {0.4, 0.4, 0.4}});
+  chart.legend = render::Chart::Legend::below;
+  chart.height = 320;
+  return chart;
+}
+
+std::string micro(double metres) { return number(1e6 * metres, 3); }
+
+// Displacement in the plane of the band.
+double slip_of(const analysis::Jump& jump) { return std::hypot(jump.slip.moved, jump.sideways.moved); }
+
+std::string jump_words(const Across& across) {
+  if (!across.jump) return across.looks.label + ": the band lies at an end, with nothing beyond it to compare";
+  const double opening = across.jump->opening.moved;
+  return fmt::format("{}: across a band at {}° to the axis the sides have {} by {} µm and slipped by {} µm",
+                     across.looks.label, number(across.fit.inclination, 2), opening > 0 ? "parted" : "closed up",
+                     micro(std::abs(opening)), micro(slip_of(*across.jump)));
+}
+
+}  // namespace
+
+FigureContent displacement_jump(const StudyResult& study) {
+  FigureContent content;
+  const auto pressed = swept(study, test_compression), pulled = swept(study, test_tension);
+  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  std::vector<Across> all;
+  for (const SeriesCase& item : pressed)
+    if (auto found = across_of(item)) all.push_back(std::move(*found));
+  if (!pulled.empty()) {
+    SeriesCase looks = pulled.front();
+    looks.label = "direct tension";
+    looks.id = "tension";
+    if (auto found = across_of(looks)) all.push_back(std::move(*found));
+  }
+  if (all.empty()) return content;
+  TextTable table{{"Case", "Band’s angle to the axis (°)", "Cracks in the band beyond its volume (%)", "Strain (%)",
+                   "Opening (µm)", "Of it even strain (µm)", "Slip, upper side up (µm)", "Of that even strain (µm)",
+                   "Slip, level (µm)", "Even strain, level (µm)"},
+                  {}};
+  std::vector<std::string> said;
+  for (const Across& one : all) {
+    std::vector<std::string> row{one.looks.label, number(one.fit.inclination, 2), number(100 * one.fit.excess(), 2),
+                                 number(100 * one.strain, 3)};
+    for (const auto part : {&analysis::Jump::opening, &analysis::Jump::slip, &analysis::Jump::sideways}) {
+      row.push_back(one.jump ? micro(((*one.jump).*part).moved) : "–");
+      row.push_back(one.jump ? micro(((*one.jump).*part).even) : "–");
+    }
+    table.rows.push_back(std::move(row));
+    said.push_back(jump_words(one));
+  }
+  for (const Across* one : {&all.front(), &all.back()}) {
+    if (one == &all.back() && all.size() == 1) break;
+    content.panels.push_back(
+        {.id = "profile_" + one->looks.id,
+         .caption = fmt::format("Displacement by distance from the middle of the band with most cracks, {:g} mean "
+                                "particle diameters thick, at {}.",
+                                band_diameters, one->looks.label),
+         .alt = jump_words(*one) + ".",
+         .content = profile_chart(*one),
+         .per_row = 2});
+  }
+  content.panels.push_back(
+      {.id = "table",
+       .caption = "Displacement of the layer beyond one face of the band, half as thick as it, less that of "
+                  "the layer beyond the other; and what an even strain of the whole specimen would "
+                  "give over the same distance.",
+       .alt = "",
+       .content = table,
+       .per_row = 1});
+  content.finding = joined(said, "; ") + ".";
+  return content;
+}
+
+}  // namespace reports::texture
