@@ -94,9 +94,16 @@ zpty -w shell "zstyle ':completion:*' verbose no; zstyle ':completion:*' list-se
 zpty -w shell 'print -r -- rea""dy'
 zpty -r shell shown '*ready*'
 while IFS= read -r line; do
-  zpty -n -w shell "$line"$'\t'$'\025'
-  zpty -w shell 'print -r -- en""d'
-  zpty -r shell shown '*end'$'\r'$'\n''*'
+  # On a busy machine what follows may come before the list is shown, and zsh leaves it out: then again, more slowly.
+  for pause in 0 0.3 1 3 6; do
+    zpty -n -w shell "$line"$'\t'
+    sleep $pause
+    zpty -n -w shell $'\025'
+    zpty -w shell 'print -r -- en""d'
+    zpty -r shell shown '*end'$'\r'$'\n''*'
+    said=${shown//[[:space:][:cntrl:]]/}
+    [[ ${said%end*} != ${line//[[:space:]]/} ]] && break
+  done
   print -r -- "${shown//$'\r'/ }" | tr '\n' ' '
   print
   print -r -- '=='
