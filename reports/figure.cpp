@@ -15,6 +15,12 @@ double StudyResult::published_value(std::string_view id) const {
   return found == published.end() ? std::nan("") : found->low;
 }
 
+const LaboratoryNumber* StudyResult::measured(std::string_view key, std::string_view mineral) const {
+  const auto found = std::ranges::find_if(
+      laboratory, [&](const LaboratoryNumber& one) { return one.key == key && one.mineral == mineral; });
+  return found == laboratory.end() ? nullptr : &*found;
+}
+
 void lay_out(std::vector<Panel>& panels) {
   const auto half = [](const Panel& panel) {
     const bool drawn =

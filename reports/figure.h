@@ -27,6 +27,17 @@ struct PublishedNumber {
   double low = 0, high = 0;  ///< the same for a value
 };
 
+/// A number that the user's laboratory measured: of the rock, or of a mineral alone. In `unit`.
+struct LaboratoryNumber {
+  std::string_view key, name, unit;              ///< "ucs", "Uniaxial compressive strength", "MPa" (dem::Measurable)
+  std::string mineral;                           ///< "": the rock
+  std::string test = {}, result = {}, fit = {};  ///< what of ours it is compared with
+  double pressure = 0;                           ///< confining, MPa
+  double value = 0, low = 0, high = 0;           ///< with the band that the laboratory states
+  double deviation = 0;                          ///< standard deviation; 0: none is stated
+  bool is_range = false;                         ///< it was written as a range
+};
+
 struct StudyResult {
   const dem::Scenario* scenario = nullptr;
   std::vector<CaseResult> cases;
@@ -36,9 +47,13 @@ struct StudyResult {
   bool of_a_paper = true;
   /// What figures show beside ours, of assets/papers.
   std::vector<PublishedNumber> published{};
+  std::span<const dem::Measurable> measurables{};  ///< what the model declares
+  std::vector<LaboratoryNumber> laboratory{};      ///< what figures show beside ours of the user's own tests
 
   [[nodiscard]] const dem::Record* find(std::string_view id) const;
   [[nodiscard]] double published_value(std::string_view id) const;  ///< NaN when there is none
+  /// The first of that key and mineral; nullptr when it was not measured.
+  [[nodiscard]] const LaboratoryNumber* measured(std::string_view key, std::string_view mineral = {}) const;
 };
 
 /// Text table, also written as CSV.

@@ -5,6 +5,7 @@ target_compile_definitions(dem_synthetic PRIVATE DEM_SOURCE_DIR="${PROJECT_SOURC
 
 dem_test(test_report_parts SOURCES reports/test_parts.cpp LIBRARIES dem_synthetic nlohmann_json::nlohmann_json)
 dem_test(test_report_published SOURCES reports/test_published.cpp LIBRARIES dem_synthetic dem_lattice)
+dem_test(test_report_laboratory SOURCES reports/test_laboratory.cpp LIBRARIES dem_synthetic nlohmann_json::nlohmann_json)
 dem_test(test_report_fits SOURCES reports/test_fits.cpp LIBRARIES dem_reports)
 dem_test(test_report_granite SOURCES reports/test_granite.cpp LIBRARIES dem_synthetic)
 dem_test(test_report_workers SOURCES reports/test_workers.cpp LIBRARIES dem_synthetic)

@@ -62,6 +62,21 @@ struct Parameter {
   std::string_view step = {};    ///< "MPa of confining pressure", after "per"
 };
 
+/// What laboratories measure that a model gives: a key below [measured] of its scenarios.
+struct Measurable {
+  std::string_view key;           ///< "ucs"
+  std::string_view name;          ///< begins with a capital: "Uniaxial compressive strength"
+  std::string_view symbol = {};   ///< "UCS"
+  std::string_view unit = {};     ///< "MPa"
+  double low = 0, high = 0;       ///< what a value may be, in the unit
+  std::string_view test = {};     ///< that gives it
+  std::string_view result = {};   ///< id of the result; "": it is fitted
+  std::string_view by = {};       ///< a key below [measured] whose word completes that id: a choice of readings
+  std::string_view fit = {};      ///< name of the fit: "peak.m"
+  bool confined = false;          ///< a list of values, each at a confining pressure
+  std::string_view meaning = {};  ///< for the help of the key
+};
+
 /// What sets a case apart, by the ids of its model's parameters; "test" comes first.
 using Parameters = std::vector<std::pair<std::string, ParameterValue>>;
 

@@ -66,6 +66,7 @@ struct Model {
   std::vector<std::string> (*specimens)(const CaseSpec&) = nullptr;
   /// Makes those that are missing, and nothing else. Throws as run().
   void (*make_specimens)(const CaseSpec&, RunContext&) = nullptr;
+  std::span<const Measurable> (*measurables)() = nullptr;  ///< what laboratories measure of it; none: nothing
 };
 
 /// The explicit table of models (engine/models.cpp).

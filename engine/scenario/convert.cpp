@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "engine/core/text.h"
+#include "engine/scenario/measured.h"
 #include "engine/scenario/suggest.h"
 #include "engine/scenario/units.h"
 
@@ -116,7 +117,9 @@ std::string range_text(const Key& key) {
   return {};
 }
 
-bool is_list(KeyType type) { return type == KeyType::integers || type == KeyType::reals || type == KeyType::texts; }
+bool is_list(KeyType type) {
+  return type == KeyType::integers || type == KeyType::reals || type == KeyType::texts || type == KeyType::measured_at;
+}
 
 bool in_range(const Key& key, double si) { return si >= to_si(key.low, key.unit) && si <= to_si(key.high, key.unit); }
 
@@ -212,6 +215,43 @@ std::string text_value(const Place& place, const toml::node& node) {
   return text->get();
 }
 
+/// "" is none.
+std::vector<double> measured_value(const Place& place, const toml::node& node) {
+  const Key& key = place.key;
+  std::string said;
+  if (const auto* text = node.as_string()) {
+    check_text(place, text->get(), Form::line);
+    said = text->get();
+    if (said.empty()) return {};
+  } else if (node.is_number() && key.unit.empty()) {
+    said = shortest(bare_number(place, node));
+  } else {
+    place.refuse("wrong type: " + in_words(node), "write " + expectation(key));
+  }
+  Measured found;
+  try {
+    found = read_measured(said, key.unit, key.at_unit);
+  } catch (const InputError& error) {
+    place.refuse(error.wrong(), error.right());
+  }
+  check_range(place, found.value);
+  return flat(found);
+}
+
+std::vector<double> measured_values(const Place& place, const toml::node& node) {
+  std::vector<double> all;
+  const auto* array = node.as_array();
+  if (!array) {
+    place.refuse("wrong type: " + in_words(node) + " where a list is needed",
+                 "write " + expectation(place.key) + ", in square brackets");
+  }
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    Place at{place.key, place.where, place.shown + "[" + std::to_string(i) + "]"};
+    for (const double number : measured_value(at, *array->get(i))) all.push_back(number);
+  }
+  return all;
+}
+
 template <class One>
 auto list_value(const Place& place, const toml::node& node, One one) {
   std::vector<decltype(one(place, node))> values;
@@ -282,6 +322,11 @@ std::string expectation(const Key& key) {
     case KeyType::texts:
       if (!key.choices.empty()) return (list ? "a list of words out of " : "one of: ") + joined(key.choices);
       return list ? "a list of texts" : "a text";
+    case KeyType::measured:
+      return "a measured value such as " +
+             (key.unit.empty() ? std::string("\"0.26 +- 0.02\"") : "\"210 " + key.unit + " +- 8\"") + range;
+    case KeyType::measured_at:
+      return "a list of measured values such as [\"320 " + key.unit + " +- 10 at 20 " + key.at_unit + "\"]" + range;
   }
   throw std::logic_error("a key type without a description");
 }
@@ -313,6 +358,10 @@ Value convert(const Key& key, const toml::node& node, const Location& where, con
       return list_value(place, node, real_value);
     case KeyType::texts:
       return list_value(place, node, text_value);
+    case KeyType::measured:
+      return measured_value(place, node);
+    case KeyType::measured_at:
+      return measured_values(place, node);
   }
   throw std::logic_error("a key type that cannot be read");
 }

@@ -25,6 +25,10 @@ std::string type_text(const Key& key) {
       return key.unit.empty() ? "list of numbers" : "list of quantities in " + units_like(key.unit);
     case KeyType::texts:
       return "list of texts";
+    case KeyType::measured:
+      return key.unit.empty() ? "measured number" : "measured quantity in " + units_like(key.unit);
+    case KeyType::measured_at:
+      return "list of measured quantities in " + units_like(key.unit) + ", each at one in " + units_like(key.at_unit);
   }
   return {};
 }

@@ -28,7 +28,17 @@
 
 namespace dem {
 
-enum class KeyType { boolean, integer, real, text, integers, reals, texts };
+enum class KeyType {
+  boolean,
+  integer,
+  real,
+  text,
+  integers,
+  reals,
+  texts,
+  measured,     ///< with its uncertainty (engine/scenario/measured.h); default "\"\"": not measured
+  measured_at,  ///< a list of those, each with where it was measured
+};
 
 /// What a key decides. The content of a case, which says whether its record is still current, holds the values of the keys
 /// that affect its specimen or its test.
@@ -52,7 +62,8 @@ enum class Form {
 struct Key {
   std::string path = {};  ///< "specimen.diameter", "mineral[].share", "sweep.aspect_ratio"
   KeyType type = KeyType::real;
-  std::string unit = {};  ///< unit in which range, default and help are written ("mm", "GPa", "%", "deg"); "" : none
+  std::string unit = {};     ///< unit in which range, default and help are written ("mm", "GPa", "%", "deg"); "" : none
+  std::string at_unit = {};  ///< of measured_at: that of where it was measured
   double low = -std::numeric_limits<double>::infinity();  ///< inclusive, in `unit`; for lists: of each element
   double high = std::numeric_limits<double>::infinity();
   std::vector<std::string> choices = {};  ///< for text(s): the allowed words; empty: any

@@ -9,6 +9,7 @@
 #include "engine/scenario/units.h"
 #include "engine/texture/loading/test.h"
 #include "engine/texture/model.h"
+#include "engine/texture/quantities.h"
 
 namespace dem::texture {
 namespace {
@@ -382,6 +383,65 @@ std::vector<Key> declare_study() {
   };
 }
 
+// How the rock is brought to what was measured (dem-report calibrate).
+std::vector<Key> declare_calibration() {
+  return {
+      {.path = "calibrate.parameters",
+       .type = KeyType::texts,
+       .standard = "[]",
+       .affects = Affects::drawing,
+       .help = "what calibrate may move: \"cohesion\" (one factor for all minerals), \"quartz.cohesion\", "
+               "\"interaction.cohesion\"; empty: what the measured values determine"},
+      {.path = "calibrate.ranges",
+       .type = KeyType::texts,
+       .standard = "[]",
+       .affects = Affects::drawing,
+       .help = "how far, as multiples of the value at the start: \"cohesion 0.5-2\""},
+      {.path = "calibrate.budget",
+       .type = KeyType::integer,
+       .low = 4,
+       .high = 10000,
+       .standard = "40",
+       .affects = Affects::drawing,
+       .help = "tests that calibrate may run for a mineral, and for the rock"},
+      {.path = "calibrate.seeds",
+       .type = KeyType::integer,
+       .low = 2,
+       .high = 1000,
+       .standard = "5",
+       .affects = Affects::drawing,
+       .help = "fresh seeds by which calibrate confirms what it has found"},
+  };
+}
+
+// What laboratories have measured, of the rock or of a mineral alone ("mineral[].").
+std::vector<Key> declare_measured(const std::string& of) {
+  std::vector<Key> keys;
+  const std::string whose = of.empty() ? "" : " of the mineral alone";
+  for (const Measurable& one : measurables()) {
+    const std::string table = of + "measured.";
+    keys.push_back({.path = table + std::string(one.key),
+                    .type = one.confined ? KeyType::measured_at : KeyType::measured,
+                    .unit = std::string(one.unit),
+                    .at_unit = one.confined ? "MPa" : "",
+                    .low = one.low,
+                    .high = one.high,
+                    .standard = one.confined ? "[]" : "\"\"",
+                    .affects = Affects::drawing,
+                    .help = std::string(one.meaning) + whose + ", with its uncertainty"});
+    if (one.by.empty()) continue;
+    std::vector<std::string> readings;
+    for (const Reading& reading : quantity::initiation_readings) readings.emplace_back(reading.id);
+    keys.push_back({.path = table + std::string(one.by),
+                    .type = KeyType::text,
+                    .choices = readings,
+                    .standard = "\"one_percent_of_cracks\"",
+                    .affects = Affects::drawing,
+                    .help = "which reading of ours " + std::string(one.key) + " is compared with"});
+  }
+  return keys;
+}
+
 }  // namespace
 
 std::span<const Key> keys() {
@@ -390,6 +450,9 @@ std::span<const Key> keys() {
     const auto append = [&](const std::vector<Key>& more) { all.insert(all.end(), more.begin(), more.end()); };
     for (const TestEntry& test : tests()) append(test.keys());
     append(declare_study());
+    append(declare_measured("mineral[]."));
+    append(declare_measured(""));
+    append(declare_calibration());
     return all;
   }();
   return declared;

@@ -232,7 +232,8 @@ void make_specimens(const CaseSpec& spec, RunContext& context) {
 }  // namespace
 
 Model model() {
-  return {"grain_texture", physics_version, &keys, &quantities, &parameters, &cases, &run, &specimens, &make_specimens};
+  return {"grain_texture", physics_version, &keys,       &quantities, &parameters, &cases, &run,
+          &specimens,      &make_specimens, &measurables};
 }
 
 }  // namespace dem::texture

@@ -295,5 +295,7 @@ inline constexpr Parameter seed{.id = "seed", .name = "Seed", .symbol = "seed", 
 /// All of them, in the order of tables.
 std::span<const Quantity> quantities();
 std::span<const Parameter> parameters();
+/// Of the rock, below [measured], and of one mineral alone, below [mineral.measured].
+std::span<const Measurable> measurables();
 
 }  // namespace dem::texture

@@ -90,6 +90,7 @@ bool Reporter::report(const dem::Study& study, const std::vector<dem::CaseOutcom
                               .cases = {},
                               .quantities = study.model->quantities(),
                               .parameters = study.model->parameters()};
+  if (study.model->measurables) result.measurables = study.model->measurables();
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const dem::CaseOutcome& outcome = outcomes[i];
     result.cases.push_back(

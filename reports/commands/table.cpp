@@ -6,9 +6,9 @@ namespace cli {
 
 std::span<const Command> commands() {
   static const std::vector<Command> table = {
-      verbs::run(),  //
-      verbs::compare(), verbs::accept(), verbs::index(),   verbs::plan(), verbs::run_case(),   verbs::collect(),
-      verbs::figures(), verbs::keys(),   verbs::results(), verbs::help(), verbs::completion(), verbs::version(),
+      verbs::run(),     verbs::calibrate(),  //
+      verbs::compare(), verbs::accept(),    verbs::index(),   verbs::plan(), verbs::run_case(),   verbs::collect(),
+      verbs::figures(), verbs::keys(),      verbs::results(), verbs::help(), verbs::completion(), verbs::version(),
   };
   return table;
 }

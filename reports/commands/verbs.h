@@ -5,6 +5,7 @@
 namespace cli::verbs {
 
 Command run();         ///< run.cpp
+Command calibrate();   ///< calibrate.cpp
 Command compare();     ///< compare.cpp
 Command accept();      ///< accept.cpp
 Command index();       ///< index.cpp

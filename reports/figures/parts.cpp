@@ -176,6 +176,40 @@ void add_published(render::Chart& chart, render::Mark::Kind kind, double value, 
                          .line = render::Line::dash});
 }
 
+void add_laboratory(render::Chart& chart, const std::vector<LaboratoryPoint>& points, const std::string& label,
+                    render::Marker marker) {
+  render::Series series{.label = label,
+                        .x = {},
+                        .y = {},
+                        .colour = laboratory_colour,
+                        .line = render::Line::none,
+                        .marker = marker,
+                        .hollow = true};
+  for (const LaboratoryPoint& point : points) {
+    if (!point.number || !std::isfinite(point.x)) continue;
+    series.x.push_back(point.x);
+    series.y.push_back(point.number->value);
+    series.y_error.push_back(0.5 * (point.number->high - point.number->low));
+  }
+  if (!series.x.empty()) chart.series.push_back(std::move(series));
+}
+
+void add_laboratory(render::Bars& bars, const std::vector<const LaboratoryNumber*>& numbers) {
+  if (std::ranges::none_of(numbers, [](const LaboratoryNumber* one) { return one != nullptr; })) return;
+  std::vector<double> values, errors;
+  for (const LaboratoryNumber* one : numbers) {
+    values.push_back(one ? one->value : std::nan(""));
+    errors.push_back(one ? 0.5 * (one->high - one->low) : std::nan(""));
+  }
+  bars.errors.resize(bars.values.size(), std::vector<double>(numbers.size(), std::nan("")));
+  bars.errors.push_back(std::move(errors));
+  bars.patterns.resize(bars.values.size(), render::Pattern::none);
+  bars.labels.emplace_back("laboratory");
+  bars.colours.push_back(laboratory_colour);
+  bars.patterns.push_back(render::Pattern::rising);
+  bars.values.push_back(std::move(values));
+}
+
 Panel note_panel(std::string id, std::string caption, std::string text) {
   return {.id = std::move(id),
           .caption = std::move(caption),

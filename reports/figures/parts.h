@@ -81,6 +81,17 @@ void add_published(render::Bars& bars, const std::vector<double>& values, const 
 /// A line across the chart at a value, "published D_{2}".
 void add_published(render::Chart& chart, render::Mark::Kind kind, double value, const std::string& label);
 
+/// What the user's laboratory measured, as points with bars of its uncertainty, all of one colour. Null: not measured.
+inline constexpr render::Colour laboratory_colour{0.72, 0.05, 0.42};
+struct LaboratoryPoint {
+  double x = 0;
+  const LaboratoryNumber* number = nullptr;
+};
+void add_laboratory(render::Chart& chart, const std::vector<LaboratoryPoint>& points,
+                    const std::string& label = "laboratory", render::Marker marker = render::Marker::square);
+/// Beside ours in grouped bars: one a category.
+void add_laboratory(render::Bars& bars, const std::vector<const LaboratoryNumber*>& numbers);
+
 /// A note in a panel's place.
 Panel note_panel(std::string id, std::string caption, std::string text);
 bool is_note(const Panel& panel);

@@ -12,6 +12,7 @@
 #include "reports/output/pdf.h"
 #include "reports/output/summary.h"
 #include "reports/page/page.h"
+#include "reports/published/laboratory.h"
 #include "reports/published/papers.h"
 #include "reports/published/published.h"
 #include "reports/published/standing.h"
@@ -34,6 +35,7 @@ ReportOutcome make_report(StudyResult study, const ReportOptions& options, const
   const std::string earlier = take_crate(options.folder);
   study.of_a_paper = of_a_paper(*study.scenario, options.assets / "papers");
   study.published = published_numbers(study, options.assets / "papers");
+  study.laboratory = laboratory_numbers(study);
   const auto chosen = chosen_figures(study, options.only);
   const Comparisons comparisons = compare(study, options.assets / "papers");
   Drawings drawings = draw_figures(study, chosen, options, canvas);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/provenance.h"
+#include "reports/published/laboratory.h"
 
 namespace reports {
 namespace {
@@ -126,6 +127,19 @@ Json comparison_json(const Comparison& row) {
   return json;
 }
 
+Json laboratory_json(const LaboratoryRow& row) {
+  const LaboratoryNumber& number = row.number;
+  Json json{{"key", number.key},
+            {"mineral", number.mineral},
+            {"confining_pressure", plain(number.pressure)},
+            {"unit", number.unit},
+            {"measured", {plain(number.low), plain(number.high)}},
+            {"computed", row.ours ? plain(row.ours->value) : Json()}};
+  if (row.ours && row.ours->has_interval()) json["interval"] = {plain(row.ours->low), plain(row.ours->high)};
+  json["verdict"] = laboratory_word(row.verdict);
+  return json;
+}
+
 Json tally_json(const Tally& counts) {
   return {{"met", counts.met},
           {"missed", counts.missed},
@@ -161,6 +175,7 @@ std::string summary_json(const StudyResult& study, const Comparisons& comparison
     }
   }
   for (const Comparison& row : comparisons.rows) json["comparisons"].push_back(comparison_json(row));
+  for (const LaboratoryRow& row : beside_laboratory(study)) json["laboratory"].push_back(laboratory_json(row));
   for (const DrawnFigure& figure : figures) {
     json["figures"].push_back({{"id", figure.figure->id},
                                {"title", figure.figure->title},

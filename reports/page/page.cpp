@@ -209,6 +209,9 @@ std::string page(const StudyResult& study, const Comparisons& comparisons, const
   data.set("abbreviations", abbreviations);
   data.set("has_abbreviations", !used.empty());
   data.set("published", comparisons_data(comparisons));
+  const PageData laboratory = laboratory_data(study);
+  data.set("has_laboratory", !laboratory.is_empty_list());
+  data.set("laboratory", laboratory);
   data.set("figures", figures_data(figures, images == Images::embedded ? options.folder : std::filesystem::path()));
   set_diagnostics(data, study);
   data.set("notes", notes_data(study));

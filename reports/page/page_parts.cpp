@@ -15,6 +15,7 @@
 #include "reports/page/page.h"
 #include "reports/page/page_tables.h"
 #include "reports/provenance.h"
+#include "reports/published/laboratory.h"
 #include "reports/text.h"
 
 namespace reports {
@@ -439,6 +440,11 @@ PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
                                                                                          : counts.met > 0  ? "good"
                                                                                                            : "plain");
   }
+  if (const std::vector<LaboratoryRow> rows = beside_laboratory(study); !rows.empty()) {
+    const bool outside = std::ranges::count(rows, Verdict::missed, &LaboratoryRow::verdict) > 0;
+    const bool within = std::ranges::count(rows, Verdict::met, &LaboratoryRow::verdict) > 0;
+    add(laboratory_tally(rows), outside ? "bad" : within ? "good" : "plain");
+  }
   if (std::ranges::any_of(figures, [](const DrawnFigure& f) { return f.agreement && !f.expected; })) {
     const bool judged = comparisons.scale.empty() || comparisons.scale == study.scenario->scale();
     add("", "plain", agreement_parts(figures, judged ? "" : study.scenario->scale()));
@@ -585,6 +591,40 @@ PageData comparisons_data(const Comparisons& comparisons) {
   block.set("counts", tally_text(comparisons.tally(), comparisons.scale));
   block.set("rows", rows);
   PageData list = new_list();
+  list.push_back(block);
+  return list;
+}
+
+PageData laboratory_data(const StudyResult& study) {
+  PageData list = new_list();
+  const std::vector<LaboratoryRow> found = beside_laboratory(study);
+  if (found.empty()) return list;
+  PageData rows = new_list();
+  for (const LaboratoryRow& row : found) {
+    PageData item;
+    item.set("quantity", laboratory_name(row.number));
+    item.set("measured", laboratory_text(row.number));
+    item.set("ours", row.ours ? number(row.ours->value, 4) : "–");
+    std::string detail;
+    if (row.ours && row.seeds > 0) detail = row.seeds == 1 ? "one seed" : fmt::format("mean of {} seeds", row.seeds);
+    if (row.ours && row.ours->has_interval()) {
+      detail += (detail.empty() ? "" : "; ") +
+                fmt::format("95 % interval {} to {}", number(row.ours->low, 3), number(row.ours->high, 3));
+    }
+    item.set("detail", detail);
+    item.set("has_detail", !detail.empty());
+    item.set("deviation", row.ours && row.number.value != 0 ? with_sign(percent(row.ours->value / row.number.value - 1))
+                                                            : std::string());
+    item.set("verdict", std::string(laboratory_word(row.verdict)));
+    item.set("verdict_class", row.verdict == Verdict::met         ? "met"
+                              : row.verdict == Verdict::missed    ? "missed"
+                              : row.verdict == Verdict::undecided ? "undecided"
+                                                                  : "open");
+    rows.push_back(item);
+  }
+  PageData block;
+  block.set("counts", laboratory_tally(found));
+  block.set("rows", rows);
   list.push_back(block);
   return list;
 }

@@ -21,6 +21,7 @@ PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
 /// A table of results for each test: of what the study is made for, or of counts and diagnostics.
 PageData results_data(const StudyResult& study, bool diagnostics);
 PageData comparisons_data(const Comparisons& comparisons);
+PageData laboratory_data(const StudyResult& study);  ///< what the user's laboratory measured, beside ours
 /// Pictures and downloads are read from `folder` and embedded; pictures are named when it is empty.
 PageData figures_data(const std::vector<DrawnFigure>& figures, const std::filesystem::path& folder);
 PageData ledger_data(const StudyResult& study);

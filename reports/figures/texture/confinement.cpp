@@ -132,6 +132,25 @@ render::Series points(const analysis::StrengthPoints& of, const std::string& lab
           .y_error = {}};
 }
 
+// What the user's laboratory measured of the rock: strengths at their pressures, tension as a pressure below zero.
+void add_laboratory_tests(render::Chart& chart, const StudyResult& study) {
+  std::vector<LaboratoryPoint> peaks, damage, initiation, tension;
+  for (const LaboratoryNumber& one : study.laboratory) {
+    if (!one.mineral.empty()) continue;
+    if (one.key == "ucs" || one.key == "peaks") peaks.push_back({one.pressure, &one});
+    if (one.key == "crack_damage") damage.push_back({0, &one});
+    if (one.key == "crack_initiation") initiation.push_back({0, &one});
+    if (one.key == "tensile_strength" && one.value > 0) tension.push_back({-one.value, &one});
+  }
+  add_laboratory(chart, peaks, "laboratory peak", render::Marker::circle);
+  add_laboratory(chart, damage, "laboratory σ_{cd}", render::Marker::square);
+  add_laboratory(chart, initiation, "laboratory σ_{ci}", render::Marker::triangle);
+  if (tension.empty()) return;
+  add_laboratory(chart, tension, "laboratory tension", render::Marker::diamond);
+  for (double& y : chart.series.back().y) y = 0;  // at no other stress
+  chart.series.back().y_error.clear();
+}
+
 render::Chart envelope_chart(const StudyResult& study, const analysis::Envelopes& found,
                              const std::vector<double>& tension) {
   render::Chart chart;
@@ -191,6 +210,7 @@ render::Chart envelope_chart(const StudyResult& study, const analysis::Envelopes
        [&](double x) { return laboratories.share_low * found.ucs + laboratories.slope_low * x; });
   line("", range_colour, render::Line::dash_dot,
        [&](double x) { return laboratories.share_high * found.ucs + laboratories.slope_high * x; });
+  add_laboratory_tests(chart, study);
   chart.legend = render::Chart::Legend::below;
   chart.height = 460;
   return chart;
@@ -205,6 +225,9 @@ TextTable envelope_table(const StudyResult& study, const analysis::Envelopes& fo
     table.rows.push_back({envelope, parameter, std::isfinite(value) ? shortest(value) : "–",
                           estimate ? estimate_text(*estimate, 3, true) : "no fit", std::to_string(n)});
   };
+  if (const LaboratoryNumber* m = study.measured("hoek_brown_m")) {
+    table.rows.push_back({"peak, laboratory", "m", "", fmt::format("measured {:.4g} to {:.4g}", m->low, m->high), ""});
+  }
   row("peak, σc = UCS, s = 1", "m", "envelope_peak_m", "peak.m", found.peak.sigma_1.size());
   row("peak, s = 1", "σc (MPa)", "envelope_peak_sigma_c", "free.sigma_c", found.peak.sigma_1.size());
   row("", "m", "envelope_peak_m", "free.m", found.peak.sigma_1.size());

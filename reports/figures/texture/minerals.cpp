@@ -45,6 +45,7 @@ Spread of_first(const std::vector<SeriesCase>& cases, const ValueOf& value) {
 struct PropertyBars {
   std::string id, title, caption;
   std::vector<double> ours{}, errors{}, published{};
+  std::vector<const LaboratoryNumber*> measured{};
 };
 
 render::Chart property_chart(PropertyBars of, const std::vector<std::string>& minerals) {
@@ -57,9 +58,12 @@ render::Chart property_chart(PropertyBars of, const std::vector<std::string>& mi
   for (const auto* values : {&of.ours, &of.published})
     for (const double v : *values)
       if (std::isfinite(v)) highest = std::max(highest, v);
+  for (const LaboratoryNumber* one : of.measured)
+    if (one) highest = std::max(highest, one->high);
   if (std::ranges::any_of(of.errors, [](double v) { return std::isfinite(v); })) bars.errors = {of.errors};
   bars.values = {of.ours};
   add_published(bars, of.published, "published (Table 3)");
+  add_laboratory(bars, of.measured);
   bars.print_values = bars.errors.empty();
   bars.value_format = "{:.3g}";
   chart.bars = bars;
@@ -122,6 +126,10 @@ FigureContent mineral_properties(const StudyResult& study) {
     plotted(0, of(modulus), error(modulus), theirs.young_modulus);
     plotted(1, of(ts), error(ts), theirs.tensile_strength);
     plotted(2, of(ucs), error(ucs), theirs.ucs);
+    bars[0].measured.push_back(study.measured("young_modulus", mineral));
+    bars[1].measured.push_back(study.measured("tensile_strength", mineral));
+    bars[2].measured.push_back(study.measured("ucs", mineral));
+    bars[3].measured.push_back(study.measured("hoek_brown_m", mineral));
     plotted(3, m ? m->value : std::nan(""), m && m->has_interval() ? 0.5 * (m->high - m->low) : std::nan(""), theirs.m);
     std::vector<std::string> parts;
     const auto share = [&](const char* name, double ours, double published_value) {
@@ -187,6 +195,11 @@ FigureContent mineral_envelopes(const StudyResult& study) {
       line(render::Line::solid, [&](double x) { return found.peak_fit->at(x); });
       said.push_back(fmt::format("{} m {}", mineral, estimate_text(found.peak_fit->m, 3)));
     }
+    std::vector<LaboratoryPoint> measured;
+    for (const LaboratoryNumber& one : study.laboratory) {
+      if (one.mineral == mineral && (one.key == "ucs" || one.key == "peaks")) measured.push_back({one.pressure, &one});
+    }
+    add_laboratory(chart, measured, "laboratory, " + mineral, render::marker_style(index - 1));
     const Published theirs = published_of(study, mineral);
     if (high > 0) {
       const std::size_t before = chart.series.size();

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "reports/figures/table.h"
@@ -86,6 +88,17 @@ render::Chart stress_and_strains(const StudyResult& study, const dem::Record& re
     published.push_back({study.published_value(strain_id), study.published_value(stress_id)});
   add_published(chart, published, "published σ_{ci} and σ_{cd}");
   add_published(chart, render::Mark::Kind::horizontal, study.published_value("ucs_ar_1"), "published peak");
+  // The laboratory's stresses, each at the strain where ours has that stage.
+  for (const LaboratoryNumber& one : study.laboratory) {
+    const double* ours = one.pressure > 0 || !one.mineral.empty() || one.test != test_compression
+                             ? nullptr
+                             : record.find_result(one.result);
+    if (!ours || one.unit != "MPa") continue;
+    std::string name(one.name);
+    name.front() = static_cast<char>(std::tolower(name.front()));
+    add_laboratory(chart, {{strain_at(history, *ours), &one}}, "laboratory, " + name,
+                   one.key == "ucs" ? render::Marker::square : render::Marker::triangle);
+  }
   for (const Level& one : levels_of(record)) {
     chart.marks.push_back({.kind = render::Mark::Kind::point,
                            .x = one.strain,
@@ -218,7 +231,8 @@ double published_at(const StudyResult& study, const dem::Parameter& axis, std::s
 }
 
 render::Chart strength_bars(const StudyResult& study, const std::vector<Strength>& found, Spread Strength::*value,
-                            const std::string& title, std::string_view published_id, std::size_t colour, int digits) {
+                            const std::string& title, std::string_view published_id, std::string_view laboratory_key,
+                            std::size_t colour, int digits) {
   render::Chart chart;
   render::Bars bars;
   bars.value_format = fmt::format("{{:.{}f}}", digits);
@@ -227,9 +241,13 @@ render::Chart strength_bars(const StudyResult& study, const std::vector<Strength
   bars.values.emplace_back();
   bars.errors.emplace_back();
   std::vector<double> published;
+  std::vector<const LaboratoryNumber*> measured;
   bool repeated = false;
   const dem::Parameter& axis = swept_axis(study);
+  const bool angle = axis.unit == "°";
+  const double usual = study.scenario->real(axis.key) * (angle ? 180 / std::numbers::pi : 1);
   for (const Strength& one : found) {
+    measured.push_back(std::abs(one.at - usual) < 1e-6 ? study.measured(laboratory_key) : nullptr);
     const Spread& spread = one.*value;
     bars.categories.push_back(one.label);
     bars.values[0].push_back(spread.mean);
@@ -239,6 +257,7 @@ render::Chart strength_bars(const StudyResult& study, const std::vector<Strength
   }
   if (!repeated) bars.errors.clear();
   add_published(bars, published);
+  add_laboratory(bars, measured);
   bars.print_values = true;
   chart.bars = bars;
   chart.left.title = title + " (MPa)";
@@ -311,11 +330,12 @@ void add_strengths(FigureContent& content, const StudyResult& study, const std::
   content.panels.push_back({.id = "strength",
                             .caption = "Uniaxial compressive strength." + spread_note(found),
                             .alt = strengths_alt(found),
-                            .content = strength_bars(study, found, &Strength::ucs, "UCS", "ucs", 0, 0)});
-  content.panels.push_back({.id = "tensile_strength",
-                            .caption = "Tensile strength." + spread_note(found),
-                            .alt = strengths_alt(found),
-                            .content = strength_bars(study, found, &Strength::ts, "TS", "tensile_strength", 2, 1)});
+                            .content = strength_bars(study, found, &Strength::ucs, "UCS", "ucs", "ucs", 0, 0)});
+  content.panels.push_back(
+      {.id = "tensile_strength",
+       .caption = "Tensile strength." + spread_note(found),
+       .alt = strengths_alt(found),
+       .content = strength_bars(study, found, &Strength::ts, "TS", "tensile_strength", "tensile_strength", 2, 1)});
   content.panels.push_back({.id = "strength_ratio",
                             .caption = "Ratio of the two." + spread_note(found),
                             .alt = strengths_alt(found),

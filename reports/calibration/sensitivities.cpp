@@ -1,0 +1,91 @@
+#include "reports/calibration/sensitivities.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace calibrate {
+namespace {
+
+constexpr std::array columns{"young_modulus", "poisson_ratio",    "ucs",   "tensile_strength",
+                             "crack_damage",  "crack_initiation", "peaks", "hoek_brown_m"};
+
+struct Row {
+  std::string_view parameter;
+  std::array<double, columns.size()> percent;  ///< of each result when the parameter is raised by 20 %
+};
+
+// docs/use/your-rock.md, first table: alkali feldspar alone.
+constexpr std::array mineral{
+    Row{"modulus", {20, 0, -2.8, 0, 0, 0, 1, 9}},
+    Row{"stiffness_ratio", {-6.4, 24, -10, -3.4, -12, -4, -1, 19}},
+    Row{"tensile_strength", {0, -1.4, 1.6, 19.7, 10, 11, 2, -1}},
+    Row{"cohesion", {0, 0.7, 6.6, 0, 15, 3, 12, 10}},
+    Row{"friction_angle", {0, 0, -2.5, 0, 1, 0, 12, 51}},
+    Row{"friction", {0, 0, 1.7, 0, -1, 3, 0, 6}},
+};
+constexpr double nu_of_mineral = 0.101;
+
+// Second table: coefficients on the boundaries of Lac du Bonnet granite. friction_angle was not measured.
+constexpr std::array boundaries{
+    Row{"interaction.modulus", {7.2, 0.8, 3.7, -1.4, 1, -5, 0, 0}},
+    Row{"interaction.stiffness_ratio", {-2.3, 12, -4.7, -3.9, -16, -10, -2, 0}},
+    Row{"interaction.tensile_strength", {0, -6.3, 2.9, 19, 5, 16, 0, 0}},
+    Row{"interaction.cohesion", {0, 0, 0, 0, 0, 0, 2, 0}},
+    Row{"interaction.friction", {0.4, -0.8, 3.2, 0, 3, 3, 0, 0}},
+    Row{"interaction.friction_angle", {0, 0, 0, 0, 0, 0, 1, 0}},
+};
+constexpr double nu_of_rock = 0.183;
+constexpr double peak_pressure = 20;  // MPa, of the column "peaks"
+
+template <class Rows>
+const Row* find(const Rows& rows, std::string_view parameter) {
+  const auto at = std::ranges::find(rows, parameter, &Row::parameter);
+  return at == rows.end() ? nullptr : &*at;
+}
+
+double logarithmic(double percent, std::string_view key, double nu) {
+  const double relative = std::log1p(0.01 * percent) / std::log(1.2);
+  return key == "poisson_ratio" ? nu * relative : relative;
+}
+
+double of_row(const Row& row, std::string_view key, double pressure, double nu) {
+  if (key == "brazilian_strength") key = "tensile_strength";
+  const auto value = [&](std::string_view column) {
+    const auto at = std::ranges::find(columns, column);
+    return at == columns.end() ? 0.0 : row.percent[static_cast<std::size_t>(at - columns.begin())];
+  };
+  if (key != "peaks") return logarithmic(value(key), key, nu);
+  // From what it is without pressure to what was measured at 20 MPa, and on to half as much again.
+  const double part = std::min(pressure / peak_pressure, 1.5);
+  return logarithmic((1 - part) * value("ucs") + part * value("peaks"), key, nu);
+}
+
+}  // namespace
+
+double sensitivity(std::string_view parameter, std::string_view key, double pressure, bool of_rock) {
+  if (const Row* row = find(boundaries, parameter)) return of_rock ? of_row(*row, key, pressure, nu_of_rock) : 0;
+  const Row* row = find(mineral, parameter);
+  if (!row) return 0;
+  double found = of_row(*row, key, pressure, of_rock ? nu_of_rock : nu_of_mineral);
+  // Boundaries are factors on the minerals: where all of them rise, the boundaries do.
+  if (of_rock && parameter == "tensile_strength") {
+    if (const Row* there = find(boundaries, "interaction.tensile_strength"); there && key == "crack_initiation")
+      found = std::max(found, of_row(*there, key, pressure, nu_of_rock));
+  }
+  return found;
+}
+
+double scatter(std::string_view key) {
+  if (key == "young_modulus") return 0.01;
+  if (key == "poisson_ratio") return 0.006;
+  if (key == "tensile_strength") return 0.045;
+  if (key == "brazilian_strength") return 0.06;
+  if (key == "crack_initiation" || key == "crack_damage") return 0.05;
+  if (key == "peaks") return 0.025;
+  if (key == "hoek_brown_m") return 0.15;
+  return 0.03;
+}
+
+}  // namespace calibrate

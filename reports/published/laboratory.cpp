@@ -1,0 +1,140 @@
+#include "reports/published/laboratory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "engine/scenario/measured.h"
+#include "engine/scenario/units.h"
+#include "reports/published/terms.h"
+#include "reports/text.h"
+
+namespace reports {
+namespace {
+
+using Json = nlohmann::json;
+
+void add_numbers(const StudyResult& study, const std::string& table, const std::string& mineral,
+                 std::vector<LaboratoryNumber>& all) {
+  const dem::Scenario& scenario = *study.scenario;
+  for (const dem::Measurable& one : study.measurables) {
+    const double unit = one.unit.empty() ? 1 : dem::to_si(1, one.unit);
+    for (const dem::Measured& value : dem::measured(scenario, table + std::string(one.key))) {
+      LaboratoryNumber number{.key = one.key, .name = one.name, .unit = one.unit, .mineral = mineral};
+      number.test = one.test;
+      number.result = one.result;
+      if (!one.by.empty()) number.result += scenario.text(table + std::string(one.by));
+      number.fit = one.fit;
+      number.pressure = value.at / dem::to_si(1, "MPa");
+      number.value = value.value / unit;
+      number.low = value.low / unit;
+      number.high = value.high / unit;
+      number.deviation = value.deviation / unit;
+      number.is_range = !value.is_certain() && value.high - value.low > 2.5 * value.deviation;
+      all.push_back(std::move(number));
+    }
+  }
+}
+
+/// Whether the study can have it at all: another program may know more tests than this one.
+bool is_given(const StudyResult& study, const LaboratoryNumber& number) {
+  return !number.fit.empty() ||
+         std::ranges::any_of(study.quantities, [&](const dem::Quantity& q) { return q.covers(number.result); });
+}
+
+}  // namespace
+
+std::vector<LaboratoryNumber> laboratory_numbers(const StudyResult& study) {
+  std::vector<LaboratoryNumber> all;
+  if (!study.scenario || study.measurables.empty()) return all;
+  add_numbers(study, "measured.", "", all);
+  for (std::size_t i = 0; i < study.scenario->count("mineral"); ++i) {
+    const std::string entry = fmt::format("mineral[{}].", i);
+    add_numbers(study, entry + "measured.", study.scenario->text(entry + "name"), all);
+  }
+  return all;
+}
+
+std::vector<LaboratoryRow> beside_laboratory(const StudyResult& study) {
+  std::vector<LaboratoryRow> rows;
+  const std::vector<LaboratoryNumber> numbers = laboratory_numbers(study);
+  if (numbers.empty()) return rows;
+  const Terms terms(study);
+  for (const LaboratoryNumber& number : numbers) {
+    LaboratoryRow row{.number = number, .ours = {}};
+    try {
+      if (!is_given(study, number)) throw NotComputed{};
+      if (!number.fit.empty()) {
+        row.ours = terms.fitted({{"fit", number.fit}, {"mineral", number.mineral}});
+      } else {
+        const std::vector<double> values = terms.values({{"test", number.test},
+                                                         {"of", number.result},
+                                                         {"mineral", number.mineral},
+                                                         {"confining_pressure", number.pressure}});
+        row.ours = analysis::mean_of(values);
+        row.seeds = values.size();
+      }
+      row.verdict = number.deviation == 0 ? Verdict::not_judged
+                                          : judge_value(row.ours->value, row.ours, {number.low, number.high});
+    } catch (const NotComputed&) {
+      row.ours.reset();
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::string_view laboratory_word(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::met:
+      return "within its uncertainty";
+    case Verdict::missed:
+      return "outside";
+    case Verdict::undecided:
+      return "undecided";
+    case Verdict::not_judged:
+      return "no uncertainty stated";
+    case Verdict::not_computed:
+      break;
+  }
+  return "not tested";
+}
+
+std::string laboratory_text(const LaboratoryNumber& number, bool with_unit) {
+  std::string text = reports::shortest(std::stod(fmt::format("{:.6g}", number.value)));
+  if (number.is_range) {
+    text = fmt::format("{:.6g} to {:.6g}", number.low, number.high);
+  } else if (number.deviation > 0) {
+    text = fmt::format("{:.6g} ± {:.4g}", number.value, number.deviation);
+  }
+  return text + (with_unit && !number.unit.empty() ? " " + std::string(number.unit) : "");
+}
+
+std::string laboratory_name(const LaboratoryNumber& number) {
+  std::string text(number.name);
+  if (number.pressure > 0) text += " at σ₃ " + shortest(number.pressure) + " MPa";
+  if (!number.mineral.empty()) text += " of " + number.mineral;
+  return text;
+}
+
+std::string laboratory_tally(const std::vector<LaboratoryRow>& rows) {
+  if (rows.empty()) return {};
+  const auto counted = [&](Verdict verdict) { return std::ranges::count(rows, verdict, &LaboratoryRow::verdict); };
+  std::vector<std::string> parts;
+  const auto say = [&](Verdict verdict, const char* one, const char* many) {
+    const auto number = counted(verdict);
+    if (number == 0) return;
+    const std::string verb = !parts.empty() ? "" : number > 1 ? "are " : "is ";
+    parts.push_back(fmt::format("{} {}{}", number, verb, number > 1 ? many : one));
+  };
+  say(Verdict::met, "within its uncertainty", "within their uncertainty");
+  say(Verdict::missed, "outside", "outside");
+  say(Verdict::undecided, "undecided", "undecided");
+  say(Verdict::not_judged, "without a stated uncertainty", "without a stated uncertainty");
+  say(Verdict::not_computed, "not tested here", "not tested here");
+  return rows.size() == 1 ? fmt::format("Of one value measured in the laboratory {}.", listed(parts))
+                          : fmt::format("Of {} values measured in the laboratory {}.", rows.size(), listed(parts));
+}
+
+}  // namespace reports
