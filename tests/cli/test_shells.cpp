@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -94,16 +95,11 @@ zpty -w shell "zstyle ':completion:*' verbose no; zstyle ':completion:*' list-se
 zpty -w shell 'print -r -- rea""dy'
 zpty -r shell shown '*ready*'
 while IFS= read -r line; do
-  # On a busy machine what follows may come before the list is shown, and zsh leaves it out: then again, more slowly.
-  for pause in 0 0.3 1 3 6; do
-    zpty -n -w shell "$line"$'\t'
-    sleep $pause
-    zpty -n -w shell $'\025'
-    zpty -w shell 'print -r -- en""d'
-    zpty -r shell shown '*end'$'\r'$'\n''*'
-    said=${shown//[[:space:][:cntrl:]]/}
-    [[ ${said%end*} != ${line//[[:space:]]/} ]] && break
-  done
+  zpty -n -w shell "$line"$'\t'
+  sleep PAUSE
+  zpty -n -w shell $'\025'
+  zpty -w shell 'print -r -- en""d'
+  zpty -r shell shown '*end'$'\r'$'\n''*'
   print -r -- "${shown//$'\r'/ }" | tr '\n' ' '
   print
   print -r -- '=='
@@ -222,25 +218,33 @@ TEST_CASE("bash and fish complete verbs, options, fixed values, and scenarios") 
 }
 
 TEST_CASE("zsh completes verbs, options, fixed values, and scenarios") {
-  const std::vector<Asked> promised = promises();
-  const auto shown = offers("zsh", in_zsh,
-                            lines_of(promised, {"dem-report ", "dem-report plan ", "dem-report compare ",
-                                                "dem-report a.toml --format html,p", "dem-report plan --scale=dr"}));
-  const auto text = [&](const std::string& line) { return *shown.at(line).begin(); };
-  for (const Asked& one : promised) {
+  std::vector<Asked> asked = promises();
+  asked.push_back({"dem-report ", {"a.toml", "sub/"}});
+  for (const cli::Command& command : cli::commands()) asked.back().words.insert(command.name);
+  asked.push_back({"dem-report plan ", {"a.toml", "sub/"}});
+  asked.push_back({"dem-report compare ", {"sub/"}});
+  asked.push_back({"dem-report a.toml --format html,p", {"df"}});
+  asked.push_back({"dem-report plan --scale=dr", {"aft"}});
+  std::map<std::string, std::string> shown;
+  const auto lacks = [&](const Asked& one) {
+    return !std::ranges::all_of(one.words, [&](const std::string& word) { return has(shown[one.line], word); });
+  };
+  // On a busy machine the next key may come before the list is shown, and zsh leaves it out: then again, more slowly.
+  for (const char* pause : {"0", "0.3", "3"}) {
+    Texts lines;
+    for (const Asked& one : asked) {
+      if (lacks(one)) lines.push_back(one.line);
+    }
+    if (lines.empty()) break;
+    const std::string script = std::regex_replace(std::string(in_zsh), std::regex("PAUSE"), pause);
+    for (const auto& [line, said] : offers("zsh", script, lines)) shown[line] = *said.begin();
+  }
+  const auto text = [&](const std::string& line) { return shown.at(line); };
+  for (const Asked& one : asked) {
     CAPTURE(one.line);
     CAPTURE(text(one.line));
     for (const std::string& word : one.words) CHECK(has(text(one.line), word));
   }
-  for (const cli::Command& command : cli::commands()) CHECK(has(text("dem-report "), command.name));
-  for (const char* line : {"dem-report ", "dem-report plan "}) {
-    CAPTURE(text(line));
-    CHECK(has(text(line), "a.toml"));
-    CHECK(has(text(line), "sub/"));
-    CHECK_FALSE(has(text(line), "b.txt"));
-  }
-  CHECK(has(text("dem-report compare "), "sub/"));
+  for (const char* line : {"dem-report ", "dem-report plan "}) CHECK_FALSE(has(text(line), "b.txt"));
   CHECK_FALSE(has(text("dem-report compare "), "a.toml"));
-  CHECK(has(text("dem-report a.toml --format html,p"), "df"));
-  CHECK(has(text("dem-report plan --scale=dr"), "aft"));
 }
