@@ -86,6 +86,14 @@ std::array<double, 3> bond_vector(int layer_kind, int direction) {
   }
 }
 
+std::int64_t element_count(const BlockShape& shape) {
+  std::array<std::int64_t, 2> of_layer{};  // the even layers are alike, and so are the odd ones
+  for (std::size_t layer = 0; layer < 2; ++layer) {
+    for (int row = 0; row < shape.rows; ++row) of_layer[layer] += row_length(shape, static_cast<int>(layer), row);
+  }
+  return of_layer[0] * ((shape.layers + 1) / 2) + of_layer[1] * (shape.layers / 2);
+}
+
 Block make_block(const BlockShape& shape, double d) {
   Block block;
   block.shape = shape;

@@ -44,6 +44,9 @@ struct Block {
   [[nodiscard]] std::vector<std::int32_t> face(int axis, bool high) const;
 };
 
+/// Elements of a block, without making it.
+std::int64_t element_count(const BlockShape& shape);
+
 Block make_block(const BlockShape& shape, double diameter);
 
 // How the lattice looks from one site; the fast loop and the graph above are both made of these.

@@ -348,6 +348,9 @@ Micro corrected(const Scenario& s, const Rock& rock, double diameter) {
   return micro;
 }
 
+// Beyond this the arrays of a block take gigabytes, and its tests weeks.
+constexpr std::int64_t most_elements = 5'000'000;
+
 BlockShape shape_of(const Scenario& s) {
   const int ny = static_cast<int>(s.integer("block.elements_y"));
   const int rows = static_cast<int>(s.integer("block.rows")), layers = static_cast<int>(s.integer("block.layers"));
@@ -358,7 +361,13 @@ BlockShape shape_of(const Scenario& s) {
                     "it must be odd and at least 3, so that both faces are full, or 0 for the published block");
     }
   }
-  return block_shape(ny, rows, layers);
+  const BlockShape shape = block_shape(ny, rows, layers);
+  if (const std::int64_t count = element_count(shape); count > most_elements) {
+    throw s.error(
+        "block.elements_y", fmt::format("{} along y make a block of {} elements", ny, count),
+        fmt::format("at most {} can be run: take fewer along y, or give block.rows and block.layers", most_elements));
+  }
+  return shape;
 }
 
 }  // namespace
@@ -418,8 +427,7 @@ Settings read_settings(const Scenario& s) {
   const std::string& section = s.text("measure.section");
   r.section = section == "centres" ? Section::centres : section == "outline" ? Section::outline : Section::elements;
   r.gauge = s.text("measure.gauge") == "planes" ? Gauge::planes : Gauge::end_layers;
-  const Block block = make_block(r.shape, r.micro.diameter);
-  r.setup.viscosity = s.real("motion.viscosity_factor") * viscosity(r.micro, static_cast<long>(block.site.size()));
+  r.setup.viscosity = s.real("motion.viscosity_factor") * viscosity(r.micro, static_cast<long>(element_count(r.shape)));
   return r;
 }
 

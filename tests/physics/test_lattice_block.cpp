@@ -25,6 +25,7 @@ TEST_CASE("every published block has the published number of elements, and its b
                                             {30, 37681, 215424}}) {
     const Block block = make_block(block_shape(ny), 1e-3);
     CHECK(block.site.size() == elements);
+    CHECK(static_cast<std::size_t>(element_count(block.shape)) == elements);
     if (bonds) CHECK(block.bonds.size() == bonds);
   }
 }

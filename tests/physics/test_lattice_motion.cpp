@@ -347,4 +347,5 @@ TEST_CASE("rocks that the lattice cannot be are refused with the line of the key
   CHECK(said({}).empty());
   CHECK(said({"rock.poisson_ratio=0.2"}).find("below 0.2") != std::string::npos);
   CHECK(said({"rock.tensile_strength=\"300 MPa\""}).find("stronger in tension") != std::string::npos);
+  CHECK(said({"sweep.elements_y=[400]"}).find("make a block of ") != std::string::npos);
 }
