@@ -24,7 +24,8 @@ using reports::Verdict;
 constexpr double close_share = 0.4;
 // What a step changes of a result beside the smooth part, over the scatter between seeds: the cracks run otherwise.
 constexpr double noise_share = 0.3;
-// The scatter is pooled with what is known of it, which counts as so many degrees of freedom.
+// The scatter is pooled with what is known of it, which counts as so many degrees of freedom. That is of larger specimens:
+// where these ones scatter more, theirs counts alone.
 constexpr int known_freedom = 4;
 constexpr int most_corrections = 3;
 
@@ -140,7 +141,8 @@ class Work {
     for (const std::size_t i : stage.targets) {
       const Target& target = result_.subject.targets[i];
       const double noise = (elastic ? 0.1 : noise_share) * scatter(target.number.key);
-      problem.targets.push_back(goal(target, expected_deviation(target, plan_.seeds), noise));
+      // One seed stands apart by its scatter: coming closer than that would spend tests that the fresh seeds need.
+      problem.targets.push_back(goal(target, expected_deviation(target, 1), noise));
     }
     const std::vector<Eigen::Index> rows(stage.targets.begin(), stage.targets.end()),
         columns(stage.parameters.begin(), stage.parameters.end());
@@ -185,7 +187,10 @@ class Work {
     };
     const std::size_t before = result_.path.size();
     const int each = static_cast<int>(stage.tests.size());
-    const int reserve = plan_.seeds * static_cast<int>(confirming_tests().size());
+    // The seed of the search can be far from the mean of others: a first round of fresh seeds tells by how much, a second one
+    // whether that has been taken out. A small budget is for the first only.
+    const int round = confirming_round();
+    const int reserve = plan_.budget >= 4 * round ? 2 * round : round;
     search::SearchOptions options;
     options.evaluations = std::max((plan_.budget - used() - reserve) / each, 1);
     options.may_measure = options.evaluations > 2 * static_cast<int>(stage.parameters.size());
@@ -261,6 +266,9 @@ class Work {
     return tests;
   }
 
+  /// Tests of one round of fresh seeds.
+  [[nodiscard]] int confirming_round() const { return plan_.seeds * static_cast<int>(confirming_tests().size()); }
+
   /// Values of every target for every fresh seed: [target][seed], of those that gave one.
   struct Fresh {
     std::vector<std::vector<double>> values;
@@ -300,8 +308,9 @@ class Work {
       const dem::analysis::Spread spread = dem::analysis::spread(logs), plain = dem::analysis::spread(values);
       const auto freedom = static_cast<double>(std::max<std::size_t>(values.size(), 1) - 1);
       const double known = scatter(target.number.key);
-      fresh.deviation.push_back(std::sqrt(
-          (known_freedom * known * known + freedom * spread.deviation * spread.deviation) / (known_freedom + freedom)));
+      const double pooled = std::sqrt((known_freedom * known * known + freedom * spread.deviation * spread.deviation) /
+                                      (known_freedom + freedom));
+      fresh.deviation.push_back(std::max(pooled, spread.deviation));
       fresh.mean.push_back(values.empty() ? std::nan("") : target.to_search(plain.mean));
       step.values.push_back(plain.mean);
       words.push_back(deviation_words(target, plain.mean));
@@ -346,7 +355,7 @@ class Work {
       return;
     }
     std::size_t best = result_.path.size() - 1;
-    const int each = plan_.seeds * static_cast<int>(confirming_tests().size());
+    const int each = confirming_round();
     for (int round = 1; round <= most_corrections; ++round) {
       const search::Problem problem = whole_problem(now);
       if (is_close(problem, now.mean) || plan_.budget - used() < each) break;
@@ -433,7 +442,7 @@ class Work {
       result_.problems.push_back(fmt::format(
           "The check {} did not hold in {} of {} tests with fresh seeds: what they gave is not sure. Run the "
           "scenario with the calibrated rock to see why; most often the loading is too fast.",
-          reports::words(check), count, plan_.seeds * static_cast<int>(confirming_tests().size())));
+          reports::words(check), count, confirming_round()));
     }
     if (missed.empty() || !is_confirmed_) return;
     const std::string what = fmt::format("Not met: {}.", reports::listed(missed));
@@ -447,7 +456,7 @@ class Work {
     if (!ends.empty()) {
       result_.problems.push_back(fmt::format("{} {}: widen it in calibrate.ranges, or let other parameters move.", what,
                                              reports::listed(ends)));
-    } else if (exhausted_ || plan_.budget - used() < plan_.seeds) {
+    } else if (exhausted_ || plan_.budget - used() < confirming_round()) {
       result_.problems.push_back(fmt::format(
           "{} The budget of {} tests is used up: raise calibrate.budget; what was run is kept.", what, plan_.budget));
     } else {
