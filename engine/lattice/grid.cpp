@@ -19,7 +19,7 @@ Buffer::Buffer(std::size_t size) : size_(whole_lines(size)) {
   std::memset(data_.get(), 0, std::max(size_, line) * sizeof(double));
 }
 
-Grid::Grid(const Block& block, int lanes, int threads, bool gravity) {
+Grid::Grid(const Block& block, int lanes, int threads, bool pushed) {
   const BlockShape& shape = block.shape;
   rows_per_layer = shape.rows;
   pitch = (shape.ny + lanes - 1) / lanes * lanes;
@@ -37,7 +37,7 @@ Grid::Grid(const Block& block, int lanes, int threads, bool gravity) {
   sum_ = Buffer(size * 3 * wide);
   scalars_ = Buffer(size * 6 * wide);
   planes_ = Buffer(size * 4 * wide);
-  if (gravity) weights_ = Buffer(size * wide);
+  if (pushed) pushes_ = Buffer(size * 3 * wide);
   for (int g = 0; g < count; ++g) {
     const auto i = static_cast<std::size_t>(g);
     length[i] = row_length(shape, g / shape.rows, g % shape.rows);
@@ -51,7 +51,7 @@ Grid::Grid(const Block& block, int lanes, int threads, bool gravity) {
     row.friction = row.viscous + wide;
     row.sample = row.viscous + 2 * wide;
     row.bits = bits_.data() + i * static_cast<std::size_t>(chunks);
-    row.weight = gravity ? weights_.data() + i * wide : nullptr;
+    row.push = pushed ? pushes_.data() + i * 3 * wide : nullptr;
     row.plane_stiffness = row.held = nullptr;
     row.plane_position = row.plane_force = nullptr;
   }
@@ -167,10 +167,8 @@ void Grid::bind_plane(const std::vector<std::int32_t>& elements, double stiffnes
   }
 }
 
-void Grid::add_weight(double newton) {
-  for (std::size_t e = 0; e < row_of.size(); ++e) {
-    weights_.data()[static_cast<std::size_t>(row_of[e] * pitch + column_of[e])] = newton;
-  }
+void Grid::add_push(std::size_t element, int i, double newton) {
+  pushes_.data()[static_cast<std::size_t>((row_of[element] * 3 + i) * pitch + column_of[element])] += newton;
 }
 
 std::size_t Grid::bytes() const {

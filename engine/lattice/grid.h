@@ -36,7 +36,7 @@ struct Share {
 
 class Grid {
  public:
-  Grid(const Block& block, int lanes, int threads, bool gravity);
+  Grid(const Block& block, int lanes, int threads, bool pushed);
   Grid(const Grid&) = delete;
   Grid& operator=(const Grid&) = delete;
 
@@ -55,14 +55,15 @@ class Grid {
   void set_bond(std::size_t element, int direction, bool intact);
   /// Gives the elements of a plane their arrays.
   void bind_plane(const std::vector<std::int32_t>& elements, double stiffness, bool held);
-  void add_weight(double newton);
+  /// A constant force on an element along axis i, beside those that it has.
+  void add_push(std::size_t element, int i, double newton);
   [[nodiscard]] std::size_t bytes() const;
 
  private:
   [[nodiscard]] std::size_t shear_place(std::size_t element, int direction, int i) const;
   void share_rows(int threads);
   void connect();
-  Buffer motion_, shear_, force_, sum_, scalars_, planes_, weights_, zero_;
+  Buffer motion_, shear_, force_, sum_, scalars_, planes_, pushes_, zero_;
   std::vector<Bits> bits_;
 };
 

@@ -363,7 +363,9 @@ void advance_row(const Constants& c, const Row& row) {
       f[i] = sum;
       w[i] = load(row.self + (3 + i) * pitch + at);
     }
-    if (row.weight) f[2] = f[2] - load(row.weight + at);
+    if (row.push) {
+      for (int i = 0; i < 3; ++i) f[i] = f[i] + load(row.push + i * pitch + at);
+    }
     V held = V{};
     if (row.plane_stiffness) {
       V& fa = f[c.axis];

@@ -59,7 +59,7 @@ struct Row {
   double* viscous;                   // sum of |w- + w+|^2
   double* friction;                  // J
   double* sample;                    // 4 x pitch: elastic normal, shear (J); w-.w+, (w- + w+).w- (m^2)
-  const double* weight;              // N, or null without gravity
+  const double* push;                // 3 x pitch: constant force, N, or null without gravity and pressure
   // Only in rows with elements at a plane:
   const double* plane_stiffness;  // null in other rows
   double* plane_position;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "engine/lattice/quantities.h"
@@ -19,8 +20,9 @@ struct Wanted {
   std::string test;
   std::int64_t elements_y = 12;
   std::string planes, moving, direction, method;
-  double factor = 1;                      // on loading.factor
-  double stiffness = 1;                   // on planes.stiffness
+  double factor = 1;                                                  // on loading.factor
+  double stiffness = 1;                                               // on planes.stiffness
+  double pressure = 0, tensile_deficit = 0, compressive_deficit = 0;  // Pa, shares
   std::optional<std::size_t> extra = {};  // the [[extra]] that asks for it; none: the sweep does
 };
 
@@ -30,20 +32,30 @@ CaseSpec spec_of(const Scenario& s, const Wanted& w) {
   const auto from = [&](const char* name) { return beside ? fmt::format("extra[{}].{}", *w.extra, name) : ""; };
   Scenario one = s.with("tests", std::vector<std::string>{w.test}, from("test"))
                      .with("block.elements_y", w.elements_y, beside ? from("elements_y") : "sweep.elements_y")
-                     .with("loading.planes", w.planes, from("planes"))
+                     .with("planes." + w.test, w.planes, from("planes"))
                      .with("loading.moving", w.moving, from("moving"))
                      .with("loading.direction", w.direction, from("direction"))
                      .with("loading.factor", w.factor * s.real("loading.factor"), from("factor"))
                      .with("planes.stiffness", w.stiffness * s.real("planes.stiffness"), from("stiffness"))
+                     .with("loading.confining_pressure", w.pressure, from("confining_pressure"))
+                     .with("correction.tensile_deficit", w.tensile_deficit, from("tensile_deficit"))
+                     .with("correction.compressive_deficit", w.compressive_deficit, from("compressive_deficit"))
                      .with("elastic.method", w.method, from("method"));
+  // Without the noise of conversions, as the usual values are.
+  const auto percent = [](double share) { return std::round(1e11 * share) / 1e9; };
+  const double mega = std::round(1e3 * w.pressure) / 1e9;
   std::string id = fmt::format("{}_n_{}", w.test, w.elements_y);
   if (beside) {
-    if (w.planes != "elastic") id += "_" + w.planes;
+    if (w.planes != s.text("planes." + w.test)) id += "_" + w.planes;
     if (w.stiffness != 1) id += "_k" + id_part(w.stiffness);
     if (w.moving != "both") id += "_one";
     if (w.direction != "z") id += "_" + w.direction;
     if (w.method != "rest") id += "_" + w.method;
     if (w.factor != 1) id += "_x" + id_part(w.factor);
+    if (w.pressure != s.real("loading.confining_pressure")) id += "_sigma3_" + id_part(mega);
+    if (w.tensile_deficit != s.real("correction.tensile_deficit")) id += "_tu" + id_part(percent(w.tensile_deficit));
+    if (w.compressive_deficit != s.real("correction.compressive_deficit"))
+      id += "_cu" + id_part(percent(w.compressive_deficit));
   }
   (void)read_settings(one);  // bad values are found before anything runs
   const auto of = [](const Parameter& parameter, ParameterValue value) {
@@ -51,11 +63,14 @@ CaseSpec spec_of(const Scenario& s, const Wanted& w) {
   };
   Parameters parameters = {{"test", w.test},
                            of(parameter::elements_y, static_cast<double>(w.elements_y)),
-                           of(parameter::planes, w.planes),
+                           of(parameter::planes_in(w.test), w.planes),
                            of(parameter::moving, w.moving),
                            of(parameter::direction, w.direction),
                            of(parameter::factor, w.factor),
-                           of(parameter::stiffness, w.stiffness)};
+                           of(parameter::stiffness, w.stiffness),
+                           of(parameter::confining_pressure, mega),
+                           of(parameter::tensile_deficit, percent(w.tensile_deficit)),
+                           of(parameter::compressive_deficit, percent(w.compressive_deficit))};
   if (w.test == "elastic") parameters.push_back(of(parameter::method, w.method));
   return make_case(model(), std::move(id), std::move(one), std::move(parameters), {w.test});
 }
@@ -75,15 +90,23 @@ std::vector<CaseSpec> cases(const Scenario& s) {
   };
   for (const std::string& test : s.texts("tests")) {
     for (const std::int64_t n : s.integers("sweep.elements_y")) {
-      add({test, n, s.text("loading.planes"), s.text("loading.moving"), s.text("loading.direction"),
-           s.text("elastic.method")},
+      add({.test = test,
+           .elements_y = n,
+           .planes = s.text("planes." + test),
+           .moving = s.text("loading.moving"),
+           .direction = s.text("loading.direction"),
+           .method = s.text("elastic.method"),
+           .pressure = s.real("loading.confining_pressure"),
+           .tensile_deficit = s.real("correction.tensile_deficit"),
+           .compressive_deficit = s.real("correction.compressive_deficit")},
           "");
     }
   }
   for (std::size_t i = 0; i < s.count("extra"); ++i) {
     const auto key = [i](const char* name) { return fmt::format("extra[{}].{}", i, name); };
     add({s.text(key("test")), s.integer(key("elements_y")), s.text(key("planes")), s.text(key("moving")),
-         s.text(key("direction")), s.text(key("method")), s.real(key("factor")), s.real(key("stiffness")), i},
+         s.text(key("direction")), s.text(key("method")), s.real(key("factor")), s.real(key("stiffness")),
+         s.real(key("confining_pressure")), s.real(key("tensile_deficit")), s.real(key("compressive_deficit")), i},
         key("test"));
   }
   if (all.empty())

@@ -53,7 +53,9 @@ std::span<const Quantity> quantities() {
 
 std::span<const Parameter> parameters() {
   using namespace parameter;
-  static constexpr std::array declared{elements_y, planes, moving, direction, factor, stiffness, method};
+  static constexpr std::array declared{
+      elements_y, planes_elastic,     planes_compression, planes_tension,      moving, direction, factor,
+      stiffness,  confining_pressure, tensile_deficit,    compressive_deficit, method};
   return declared;
 }
 

@@ -275,7 +275,17 @@ inline constexpr Parameter elements_y{.id = "elements_y",
                                       .axis = true,
                                       .words = "the size of the block",
                                       .step = "element"};
-inline constexpr Parameter planes{.id = "planes", .name = "Planes", .symbol = "planes", .key = "loading.planes"};
+// How the planes hold the end elements: a choice for each test, and each case has that of its own.
+inline constexpr Parameter planes_elastic{
+    .id = "planes_elastic", .name = "Planes", .symbol = "planes", .key = "planes.elastic"};
+inline constexpr Parameter planes_compression{
+    .id = "planes_compression", .name = "Planes", .symbol = "planes", .key = "planes.compression"};
+inline constexpr Parameter planes_tension{
+    .id = "planes_tension", .name = "Planes", .symbol = "planes", .key = "planes.tension"};
+/// That of a test.
+constexpr const Parameter& planes_in(std::string_view test) {
+  return test == "tension" ? planes_tension : test == "compression" ? planes_compression : planes_elastic;
+}
 inline constexpr Parameter moving{
     .id = "moving", .name = "Moving planes", .symbol = "moving planes", .key = "loading.moving"};
 inline constexpr Parameter direction{
@@ -287,6 +297,24 @@ inline constexpr Parameter stiffness{.id = "stiffness",
                                      .symbol = "springs of the planes ×",
                                      .in_ids = "k",
                                      .usual = "1"};
+inline constexpr Parameter confining_pressure{.id = "confining_pressure",
+                                              .name = "Confining pressure σ₃",
+                                              .symbol = "σ₃",
+                                              .unit = "MPa",
+                                              .in_ids = "sigma3",
+                                              .key = "loading.confining_pressure"};
+inline constexpr Parameter tensile_deficit{.id = "tensile_deficit",
+                                           .name = "Tensile deficit made up for",
+                                           .symbol = "T_u deficit",
+                                           .unit = "%",
+                                           .in_ids = "tu",
+                                           .key = "correction.tensile_deficit"};
+inline constexpr Parameter compressive_deficit{.id = "compressive_deficit",
+                                               .name = "Compressive deficit made up for",
+                                               .symbol = "C_u deficit",
+                                               .unit = "%",
+                                               .in_ids = "cu",
+                                               .key = "correction.compressive_deficit"};
 inline constexpr Parameter method{
     .id = "method", .name = "Elastic method", .symbol = "method", .key = "elastic.method"};
 

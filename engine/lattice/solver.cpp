@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "engine/core/cell_grid.h"
 #include "engine/core/errors.h"
@@ -123,7 +124,7 @@ struct Solver::Impl {
       : block(b),
         setup(s),
         kernel(kernel_of(s.set ? *s.set : widest_set())),
-        grid(b, kernel.lanes, threads_lent(s.threads), s.gravity != 0),
+        grid(b, kernel.lanes, threads_lent(s.threads), s.gravity != 0 || s.pressure != 0),
         constants(constants_of(s, grid)) {
     for (int axis = 0; axis < 3; ++axis) {
       for (int side = 0; side < 2; ++side) faces[at(axis)][at(side)] = block.face(axis, side == 1);
@@ -135,7 +136,10 @@ struct Solver::Impl {
       const bool held = s.planes != PlaneKind::elastic;
       grid.bind_plane(plane.elements, held ? 0.0 : s.plane_stiffness * s.micro.kn, held);
     }
-    if (s.gravity != 0) grid.add_weight(s.micro.mass * s.gravity);
+    if (s.gravity != 0) {
+      for (std::size_t e = 0; e < grid.row_of.size(); ++e) grid.add_push(e, 2, -(s.micro.mass * s.gravity));
+    }
+    if (s.pressure != 0) press_sides();
     for (const Share& share : grid.shares) {
       std::size_t most = 0;
       for (int g = share.first; g < share.last; ++g) most += static_cast<std::size_t>(grid.length[at(g)]) * directions;
@@ -145,6 +149,46 @@ struct Solver::Impl {
   }
 
   static std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+  // The pressure on a side goes to the outermost element of every row (y), or to the outermost row of every layer (x), in equal
+  // parts: the sides zigzag, and these are what a jacket would touch.
+  void press_sides() {
+    const auto box = block.extent();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (axis == setup.axis) continue;
+      std::map<std::pair<std::int32_t, std::int32_t>, std::array<std::int32_t, 2>> ends;  // of each line along the axis
+      for (const Site& site : block.site) {
+        const std::int32_t along = axis == 0 ? site.row : axis == 1 ? site.column : site.layer;
+        auto& [low, high] = ends.try_emplace(line_of(site, axis), std::array{along, along}).first->second;
+        low = std::min(low, along);
+        high = std::max(high, along);
+      }
+      for (const int side : {0, 1}) {
+        std::vector<std::size_t> outer;
+        for (std::size_t e = 0; e < block.site.size(); ++e) {
+          const Site& site = block.site[e];
+          const std::int32_t along = axis == 0 ? site.row : axis == 1 ? site.column : site.layer;
+          if (along == ends.at(line_of(site, axis))[at(side)]) outer.push_back(e);
+        }
+        const double area = box[at((axis + 1) % 3)] * box[at((axis + 2) % 3)];
+        const double each = (side == 0 ? 1 : -1) * setup.pressure * area / static_cast<double>(outer.size());
+        for (const std::size_t e : outer) {
+          grid.add_push(e, axis, each);
+          pushes.push_back({e, axis, each});
+        }
+      }
+    }
+  }
+  // Sites with the same line have their ends along the axis in common: a row for y, a layer for x, the whole block for z.
+  static std::pair<std::int32_t, std::int32_t> line_of(const Site& site, int axis) {
+    return axis == 1 ? std::pair{site.layer, site.row} : axis == 0 ? std::pair{site.layer, 0} : std::pair{0, 0};
+  }
+  struct Push {
+    std::size_t element;
+    int axis;
+    double newton;
+  };
+  std::vector<Push> pushes;  // of the pressure
 
   // With the load along z, the end layers belong to the first and the last thread, which can serve the planes at once.
   bool planes_are_local() const {
@@ -350,6 +394,7 @@ struct Solver::Impl {
       for (std::size_t e = 0; e < grid.row_of.size(); ++e) height += grid.motion(e, 2);
       s.gravity = m * setup.gravity * height;
     }
+    for (const Push& push : pushes) s.work += push.newton * grid.motion(push.element, push.axis);
     run(1, low, high, true, false);
     const int p = grid.pitch;
     s.elastic_normal = sum_of_elements([](const Row& r) { return r.sample; });

@@ -30,6 +30,7 @@ struct Setup {
   double time_step = 1e-8;  ///< s
   double viscosity = 0;     ///< eta, N s/m
   double gravity = 0;       ///< along -z, m/s^2
+  double pressure = 0;      ///< on the four sides, across the axis of loading, from the beginning, Pa
   int axis = 2;             ///< of loading
   PlaneKind planes = PlaneKind::elastic;
   double plane_stiffness = 1;  ///< of the springs between planes and end elements, over Kn
@@ -50,8 +51,8 @@ struct Sample {
   double elastic_planes = 0;  ///< springs of the planes; part of the elastic energy
   double kinetic = 0, gravity = 0;
   double viscous = 0, breaking_normal = 0, breaking_shear = 0, frictional = 0;  ///< heat
-  double work = 0;                                                              ///< of the planes
-  std::int64_t opening = 0, sliding = 0;                                        ///< bonds broken so far
+  double work = 0;                        ///< of the planes and of the pressure on the sides
+  std::int64_t opening = 0, sliding = 0;  ///< bonds broken so far
   [[nodiscard]] double elastic() const { return elastic_normal + elastic_shear + elastic_planes; }
   [[nodiscard]] double heat() const { return viscous + breaking_normal + breaking_shear + frictional; }
   /// Ee + Eg + Ek + Q - W

@@ -72,6 +72,8 @@ class Declared {
     std::string near = closest(leaf, siblings);
     if (!near.empty()) near = table + near;
     if (near.empty()) near = closest(pattern, all);
+    if (near.empty() && tables_.contains(leaf))
+      return "did you mean a key of " + header(leaf + ".") + ": " + inside(leaf) + "? " + known + joined(siblings);
     if (near.empty()) near = same_leaf(leaf);
     return (near.empty() ? "" : "did you mean '" + near + "'? ") + known + joined(siblings);
   }
@@ -85,6 +87,16 @@ class Declared {
   static std::string header(const std::string& table) {
     const std::string name = table.substr(0, table.size() - 1);
     return name.ends_with("[]") ? "[[" + name.substr(0, name.size() - 2) + "]]" : "[" + name + "]";
+  }
+  /// The names of what a table holds.
+  [[nodiscard]] std::string inside(const std::string& table) const {
+    std::vector<std::string> names;
+    for (const auto& [path, key] : by_path_) {
+      if (!path.starts_with(table + ".")) continue;
+      const std::string name = child(path, table.size() + 1);
+      if (names.empty() || names.back() != name) names.push_back(name);
+    }
+    return joined(names);
   }
   /// A declared key of the same last word in another table.
   [[nodiscard]] std::string same_leaf(const std::string& leaf) const {
@@ -421,6 +433,15 @@ void concrete_paths(const std::string& pattern, const ReadScenario& scenario, st
   }
 }
 
+/// The key that one without a value follows: "planes.{test}" names another key of its own table, whose word stands there.
+std::string followed(const Key& key, const std::string& path, const ReadScenario& scenario) {
+  const std::size_t open = key.otherwise.find('{'), close = key.otherwise.find('}');
+  if (open == std::string::npos) return key.otherwise;
+  const std::string beside = path.substr(0, path.rfind('.') + 1) + key.otherwise.substr(open + 1, close - open - 1);
+  return key.otherwise.substr(0, open) + std::get<std::string>(scenario.values.at(beside).value) +
+         key.otherwise.substr(close + 1);
+}
+
 /// Puts the defaults in, or says which required key is missing, at the table that lacks it.
 void complete(const Declared& declared, const std::string& file, std::span<const Layer* const> layers,
               ReadScenario& scenario) {
@@ -449,7 +470,7 @@ void complete(const Declared& declared, const std::string& file, std::span<const
     concrete_paths(key.path, scenario, paths);
     for (const std::string& path : paths) {
       if (scenario.values.contains(path)) continue;
-      scenario.values[path] = scenario.values.at(key.otherwise);
+      scenario.values[path] = scenario.values.at(followed(key, path, scenario));
       scenario.values[path].given = false;
     }
   }

@@ -69,7 +69,7 @@ struct Key {
   std::vector<std::string> choices = {};  ///< for text(s): the allowed words; empty: any
   Form form = Form::line;                 ///< for text(s) without choices
   std::string standard = {};   ///< the default as TOML text ("\"0.35 mm\"", "1.66", "[1]"); "" : the key is required
-  std::string otherwise = {};  ///< instead of a default: the key whose value it takes where it is not given
+  std::string otherwise = {};  ///< the key that it follows where it is not given; {NAME}: the word of that neighbour
   Affects affects = Affects::undeclared;
   std::vector<std::string> when = {};  ///< the tests (or solvers, or "loaded") that it matters to; empty: all
   std::string help = {};               ///< one line, with the symbol and source where there is one

@@ -61,6 +61,8 @@ TEST_CASE("a key that takes its value from another one follows that one") {
   CHECK(other.real("extra[1].height") == 0.07);
   CHECK(usual.given("extra[0].height"));
   CHECK_FALSE(usual.given("extra[1].height"));
+  CHECK(usual.real("extra[0].length") == 0.01);  // that of its own shape, which follows another key too
+  CHECK(usual.real("extra[1].length") == 0.02);
   CHECK(dem::explain(test::keys_of("rock")).find("default that of specimen.height") != std::string::npos);
 }
 

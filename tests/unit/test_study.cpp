@@ -1,6 +1,7 @@
 // The runner, with a model that counts instead of simulating.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <map>
@@ -559,6 +560,34 @@ TEST_CASE("keys that change nothing: refused from --set, told from the scenario,
   REQUIRE(own.notes.size() == 1);
   CHECK(own.notes[0].find("own.toml:4") != std::string::npos);
   CHECK(own.notes[0].find("grains.layer_low: this value changes nothing in this scenario") != std::string::npos);
+}
+
+TEST_CASE("each test of the lattice has planes of its own, and cases beside the sweep follow them") {
+  const auto read = [](std::vector<std::string> overrides) {
+    return dem::read_study(std::string(DEM_SOURCE_DIR) + "/scenarios/quartzite_energy.toml", "smoke", overrides,
+                           dem::models());
+  };
+  const auto planes = [](const dem::Study& study) {
+    std::vector<std::string> found;
+    for (const dem::CaseSpec& spec : study.cases) {
+      const auto* own = dem::find_value(spec.parameters, "planes_" + spec.test());
+      REQUIRE(own);
+      found.push_back(spec.id + " " + std::get<std::string>(*own));
+    }
+    return found;
+  };
+  CHECK(planes(read({})) == std::vector<std::string>{"compression_n_4 elastic", "tension_n_4 rigid",
+                                                     "tension_n_4_plate plate", "tension_n_4_elastic elastic"});
+  CHECK(planes(read({"planes.tension=\"elastic\"", "planes.compression=\"rigid\""})) ==
+        std::vector<std::string>{"compression_n_4 rigid", "tension_n_4 elastic", "tension_n_4_plate plate"});
+  const dem::Study strength =
+      dem::read_study(std::string(DEM_SOURCE_DIR) + "/scenarios/quartzite_strength.toml", "paper", {}, dem::models());
+  const auto pulled = std::ranges::find(strength.cases, std::string("tension_n_8_one"), &dem::CaseSpec::id);
+  REQUIRE(pulled != strength.cases.end());
+  CHECK(*dem::find_value(pulled->parameters, "planes_tension") == dem::ParameterValue(std::string("rigid")));
+  CHECK_THROWS_WITH_AS((void)read({"loading.planes=\"rigid\""}),
+                       doctest::Contains("did you mean a key of [planes]: compression, elastic, stiffness, tension?"),
+                       dem::InputError);
 }
 
 TEST_CASE("no shipped scenario has a key that changes nothing, at any scale") {

@@ -192,7 +192,7 @@ FigureContent crack_maps(const StudyResult& study) {
   content.statement =
       "In tension the block breaks in two by opening, without slipping; in compression bonds open first, and the block "
       "fails in sliding mode.";
-  content.rows = {"opening_before_sliding", "frictional_heat_springs"};
+  content.rows = {"opening_before_sliding", "frictional_heat"};
   std::vector<std::string> said;
   const dem::Record* pressed = main_record(study, "compression");
   if (pressed && !has_failure(*pressed)) {
@@ -214,7 +214,7 @@ FigureContent crack_maps(const StudyResult& study) {
       said.push_back(no_failure_words(*r));
       continue;
     }
-    const std::string planes = r->text("planes");
+    const std::string planes = planes_of(*r);
     const double d1 = r->value_or_nan(quantity::failure_time), d2 = d1 + r->value_or_nan(quantity::crack_duration);
     content.panels.push_back(by_time(*r, "tension_time_" + planes, d1, d2, "Tension, planes: " + planes, oblique, "D₁",
                                      "Bonds that opened, by time since D₁."));
@@ -234,7 +234,7 @@ FigureContent crack_front(const StudyResult& study) {
   FigureContent content;
   content.statement =
       "Breaking heat rises for 2.83 × 10⁻⁶ s in a block 1.2 cm wide: the opening crack runs at about 4240 m/s.";
-  content.rows = {"crack_duration_springs", "crack_speed_springs"};
+  content.rows = {"crack_duration", "crack_speed"};
   std::vector<std::string> said;
   for (const dem::Record* r : records_of(study, "tension")) {
     if (!has_failure(*r)) {
@@ -243,7 +243,7 @@ FigureContent crack_front(const StudyResult& study) {
     }
     Front f = front_of(*r);
     if (f.points.x.empty()) continue;
-    const std::string planes = r->text("planes");
+    const std::string planes = planes_of(*r);
     render::Chart chart;
     chart.x.title = "Time since D₁ (µs)";
     chart.left.title = "Distance from the first opening (mm)";
@@ -252,7 +252,7 @@ FigureContent crack_front(const StudyResult& study) {
     f.points.marker = render::Marker::circle;
     f.reach = styled(f.reach, "farthest so far", 5);
     chart.series = {f.points, f.reach};
-    const double speed = study.published_value("crack_speed_springs");  // m/s
+    const double speed = study.published_value("crack_speed");  // m/s
     const double last = f.points.x.empty() ? 0 : std::ranges::max(f.points.x);
     if (std::isfinite(speed) && last > 0) {
       render::Series line = line_of(

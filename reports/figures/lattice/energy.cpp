@@ -233,7 +233,7 @@ FigureContent energy_tension(const StudyResult& study) {
   content.statement =
       "The block breaks in two at 1.072 × 10⁻² s (B₁): elastic energy becomes breaking heat and kinetic energy, at "
       "most 16.2 % of the total, which has become viscous heat by B₂.";
-  content.rows = {"failure_time_springs", "kinetic_share_springs"};
+  content.rows = {"failure_time", "kinetic_share"};
   if (auto missing = missing_cases(study, "tension")) content.panels.push_back(*missing);
   std::vector<std::string> said;
   for (const dem::Record* r : records_of(study, "tension")) {
@@ -256,18 +256,18 @@ FigureContent energy_tension(const StudyResult& study) {
     const double after = std::max(2.5 * (m.b2 - m.d1), 4e-6);
     inset.series = energies(h, m.d1 - 0.3 * after, m.d1 + after, m.d1, unit.factor);
     inset.marks = {upright(0, "B₁"), upright(1e6 * (m.b2 - m.d1), "B₂")};
-    const double published_time = 1e4 * study.published_value("failure_time_springs");  // µs, of 10⁻² s
+    const double published_time = 1e4 * study.published_value("failure_time");  // µs, of 10⁻² s
     // A block of another size parts at another time: far off, the published one would press ours to the edge.
     if (published_time < 1.5e6 * h.real("time").back())
       add_published(chart, render::Mark::Kind::vertical, published_time, "published B₁");
-    const double share = study.published_value("kinetic_share_springs");
+    const double share = study.published_value("kinetic_share");
     add_published(chart, render::Mark::Kind::horizontal, 0.01 * share * unit.factor * value_at(h, {"work"}, m.d1),
                   fmt::format("published largest kinetic energy, {} %", number(share, 3)));
     inset.legend = render::Chart::Legend::none;
     chart.insets.push_back({{inset}, {0.10, 0.44, 0.40, 0.44}});
     chart.legend = render::Chart::Legend::below;
     chart.height = 400;
-    const std::string planes = r->text("planes");
+    const std::string planes = planes_of(*r);
     content.panels.push_back(
         {.id = planes,
          .caption = fmt::format("Tension, planes: {}. The inset shows the failure.", planes),
@@ -320,7 +320,7 @@ FigureContent heat_tension(const StudyResult& study) {
   content.statement =
       "Breaking heat rises from D₁ to D₂, 2.83 × 10⁻⁶ s later; viscous heat still rises after D₂, and its share of the "
       "heat is greater than in compression. Frictional heat is always zero.";
-  content.rows = {"crack_duration_springs", "viscous_heat_after_springs", "frictional_heat_springs"};
+  content.rows = {"crack_duration", "viscous_heat_after", "frictional_heat"};
   std::vector<std::string> said;
   for (const dem::Record* r : records_of(study, "tension")) {
     if (!has_failure(*r)) {
@@ -329,13 +329,12 @@ FigureContent heat_tension(const StudyResult& study) {
     }
     const TensionMarks m = tension_marks(*r);
     const double span = std::max(m.d2 - m.d1, 1e-6);
-    const std::string planes = r->text("planes");
-    content.panels.push_back(
-        {.id = planes,
-         .caption = fmt::format("Tension, planes: {}. Heat at failure.", planes),
-         .alt = fmt::format("Breaking heat rises for {} µs.", number(1e6 * (m.d2 - m.d1), 3)),
-         .content = heats(*r, m.d1 - 0.3 * span, m.d2 + 2.5 * span, m.d1, {{m.d1, "D₁"}, {m.d2, "D₂"}},
-                          study.published_value("crack_duration_springs"))});
+    const std::string planes = planes_of(*r);
+    content.panels.push_back({.id = planes,
+                              .caption = fmt::format("Tension, planes: {}. Heat at failure.", planes),
+                              .alt = fmt::format("Breaking heat rises for {} µs.", number(1e6 * (m.d2 - m.d1), 3)),
+                              .content = heats(*r, m.d1 - 0.3 * span, m.d2 + 2.5 * span, m.d1,
+                                               {{m.d1, "D₁"}, {m.d2, "D₂"}}, study.published_value("crack_duration"))});
     std::string friction = r->has(quantity::friction_after_last_opening)
                                ? fmt::format(
                                      "frictional heat begins {} µs {} the last opening and ends at {} % of the work, "

@@ -43,6 +43,8 @@ std::vector<const dem::Record*> by_size(const StudyResult& study, std::string_vi
   return found;
 }
 
+std::string planes_of(const dem::Record& record) { return record.text(parameter::planes_in(record.text("test")).id); }
+
 std::string choice_words(const dem::Record& record, const dem::Record& main) {
   std::vector<std::string> parts;
   for (const auto& [name, value] : record.parameters) {
@@ -59,6 +61,8 @@ std::string choice_words(const dem::Record& record, const dem::Record& main) {
       parts.push_back("load along " + std::get<std::string>(value));
     } else if (name == "method") {
       parts.emplace_back("the paper’s loading steps");
+    } else if (name == parameter::planes_in(record.text("test")).id) {
+      parts.push_back("planes " + parameter_text(value));
     } else {
       parts.push_back(words(name) + " " + parameter_text(value));
     }

@@ -25,6 +25,8 @@ bool has_failure(const dem::Record& record);
 /// "tension of 82 elements did not end in failure, so that its moments are not known"
 std::string no_failure_words(const dem::Record& record);
 
+/// How its planes hold the end elements: "elastic", "rigid" or "plate".
+std::string planes_of(const dem::Record& record);
 /// What sets a record apart from the main one: "planes rigid", "loading steps × 5"; "as the series" when nothing does.
 std::string choice_words(const dem::Record& record, const dem::Record& main);
 

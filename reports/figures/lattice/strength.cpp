@@ -58,10 +58,10 @@ render::Chart against_size(const StudyResult& study, const Test& test) {
   const dem::Record* main = main_record(study, test.name);
   std::size_t colour = 1;
   for (const std::string_view planes : {"elastic", "plate", "rigid"}) {
-    if (!main || main->text("planes") == planes) continue;
+    if (!main || planes_of(*main) == planes) continue;
     render::Series other;
     for (const dem::Record* r : records_of(study, test.name)) {
-      if (r->text("planes") != planes || r->text("direction") != main->text("direction")) continue;
+      if (planes_of(*r) != planes || r->text("direction") != main->text("direction")) continue;
       if (!std::isfinite(r->value_or_nan(test.result))) continue;
       other.x.push_back(r->value(quantity::particles));
       other.y.push_back(r->value_or_nan(test.result));
