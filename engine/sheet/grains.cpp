@@ -479,6 +479,8 @@ std::vector<std::int32_t> nearest_unodes(const ElleMap& map, const Sheet& sheet)
   return nearest;
 }
 
+double toughness_factor(int columns, int reference) { return std::sqrt(static_cast<double>(columns) / reference); }
+
 void apply_disorder(Sheet& sheet, const Cover& cover, const std::vector<GrainProperties>& grains,
                     const DisorderSettings& settings, std::uint64_t seed,
                     const std::vector<GrainProperties>& particles) {

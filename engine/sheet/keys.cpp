@@ -159,6 +159,20 @@ std::vector<Key> declare() {
        .standard = "0.5",
        .affects = Affects::specimen,
        .help = "factor on thresholds of springs between grains"},
+      {.path = "strength.scaling",
+       .type = KeyType::text,
+       .choices = {"spring", "toughness"},
+       .standard = "\"spring\"",
+       .affects = Affects::specimen,
+       .help =
+           "thresholds as they are for every particle size, or times the root of sheet.columns over strength.columns"},
+      {.path = "strength.columns",
+       .type = KeyType::integer,
+       .low = 10,
+       .high = 2000,
+       .standard = "400",
+       .affects = Affects::specimen,
+       .help = "toughness: the particles in a row at which thresholds are those of disorder.strength"},
       {.path = "loading.kind",
        .type = KeyType::text,
        .choices = {"pure_shear", "extension", "compression", "growth"},
@@ -301,6 +315,12 @@ Settings read_settings(const Scenario& s) {
   r.disorder.strength = s.real("disorder.strength");
   r.disorder.strength_spread = s.real("disorder.spread");
   r.disorder.boundary = s.real("disorder.boundary");
+  if (s.text("strength.scaling") == "toughness") {
+    r.disorder.strength *= toughness_factor(r.columns, static_cast<int>(s.integer("strength.columns")));
+  } else if (s.given("strength.columns")) {
+    throw s.error("strength.columns", "it changes nothing with strength.scaling = \"spring\"",
+                  "leave it out, or write strength.scaling = \"toughness\"");
+  }
   const std::string& kind = s.text("loading.kind");
   r.loading.kind = kind == "pure_shear"    ? LoadingKind::pure_shear
                    : kind == "extension"   ? LoadingKind::extension

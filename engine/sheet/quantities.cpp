@@ -41,7 +41,10 @@ std::span<const Quantity> quantities() {
                                        grains,
                                        most_springs,
                                        boundary_threshold_ratio,
-                                       boundary_stiffness_error};
+                                       boundary_stiffness_error,
+                                       threshold_departure,
+                                       stiffness_departure,
+                                       held_along_walls};
   return declared;
 }
 

@@ -193,6 +193,28 @@ inline constexpr Quantity boundary_stiffness_error{
     .digits = 2,
     .kind = QuantityKind::diagnostic,
     .meaning = "The largest, over the mean elastic constant of the two grains."};
+inline constexpr Quantity threshold_departure{
+    .id = "threshold_departure",
+    .name = "Thresholds off a linear distribution",
+    .digits = 2,
+    .kind = QuantityKind::diagnostic,
+    .meaning =
+        "Largest distance of the distribution function of the thresholds inside grains, without the factors of "
+        "rules, from a straight line between the least and the largest."};
+inline constexpr Quantity stiffness_departure{
+    .id = "stiffness_departure",
+    .name = "Elastic constants of the grains off a Gauss distribution",
+    .digits = 2,
+    .kind = QuantityKind::diagnostic,
+    .meaning =
+        "Largest distance of the distribution function of the grains’ constants, without the factors of rules, from "
+        "that of Gauss with their mean and deviation, times the root of their number: 0.9 in one of twenty drawn "
+        "from it (Lilliefors). Of maps of eight grains or more."};
+inline constexpr Quantity held_along_walls{
+    .id = "held_along_walls",
+    .name = "Particles held along their wall",
+    .kind = QuantityKind::count,
+    .meaning = "Besides the corners, which lie on two walls. None: walls are frictionless."};
 
 }  // namespace quantity
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "engine/sheet/fractures.h"
 #include "engine/sheet/model.h"
@@ -246,6 +247,65 @@ Table snapshot_table(const std::string& name, const Specimen& specimen, const Ex
 
 namespace {
 
+// Largest distance between the distribution function of some values and another.
+template <class Function>
+double departure(std::vector<double> values, Function of) {
+  std::ranges::sort(values);
+  const auto n = static_cast<double>(values.size());
+  double most = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double there = of(values[i]), below = static_cast<double>(i) / n, above = static_cast<double>(i + 1) / n;
+    most = std::max({most, std::abs(there - below), std::abs(there - above)});
+  }
+  return most;
+}
+
+// What the model description says of the disorder and the walls.
+void add_distributions(Record& record, const Specimen& specimen) {
+  const Sheet& s = specimen.sheet;
+  std::vector<double> thresholds, constants;
+  for (int slot = 0; slot < s.slots(); ++slot) {
+    const auto at = static_cast<std::size_t>(slot);
+    if (s.stiffness[at] <= 0 || s.between[at] || !std::isfinite(s.threshold[at])) continue;
+    thresholds.push_back(
+        s.threshold[at] /
+        specimen.grains[static_cast<std::size_t>(s.grain[static_cast<std::size_t>(s.first(slot))])].strength);
+  }
+  if (!thresholds.empty()) {
+    const auto [low, high] = std::ranges::minmax(thresholds);
+    if (high > low * (1 + 1e-12))
+      record.put(quantity::threshold_departure,
+                 departure(std::move(thresholds), [=](double x) { return (x - low) / (high - low); }));
+  }
+  const std::vector<double> of_grain = grain_stiffness(specimen);
+  for (std::size_t g = 0; g < of_grain.size(); ++g) {
+    if (std::isfinite(of_grain[g])) constants.push_back(of_grain[g] / specimen.grains[g].stiffness);
+  }
+  constexpr std::size_t few = 8;
+  if (constants.size() >= few) {
+    const auto n = static_cast<double>(constants.size());
+    double mean = 0, square = 0;
+    for (const double k : constants) mean += k / n;
+    for (const double k : constants) square += (k - mean) * (k - mean) / (n - 1);
+    if (square > 1e-20 * mean * mean) {
+      const double deviation = std::sqrt(square);
+      record.put(quantity::stiffness_departure, std::sqrt(n) * departure(std::move(constants), [=](double x) {
+                                                  return 0.5 *
+                                                         std::erfc((mean - x) / (deviation * std::numbers::sqrt2));
+                                                }));
+    }
+  }
+  int held = 0;
+  for (int i = 0; i < s.particles(); ++i) {
+    const int row = i / s.lattice.columns, column = i % s.lattice.columns;
+    const bool side = column == 0 || column == s.lattice.columns - 1, end = row == 0 || row == s.lattice.rows - 1;
+    const bool along_x = (s.fixed[static_cast<std::size_t>(i)] & 1) != 0,
+               along_y = (s.fixed[static_cast<std::size_t>(i)] & 2) != 0;
+    held += (end && !side && along_x) + (side && !end && along_y);
+  }
+  record.put(quantity::held_along_walls, held);
+}
+
 // What the model description says of the lattice and of grain boundaries, measured on the sheet as it was made.
 void add_description(Record& record, const Specimen& specimen) {
   const Sheet& s = specimen.sheet;
@@ -269,6 +329,7 @@ void add_description(Record& record, const Specimen& specimen) {
     if (mean > 0) worst = std::max(worst, std::abs(s.stiffness[at] / mean - 1));
   }
   record.put(quantity::most_springs, *std::ranges::max_element(springs));
+  add_distributions(record, specimen);
   if (count[0] > 0 && count[1] > 0) {
     record.put(quantity::boundary_threshold_ratio, sum[1] / count[1] / (sum[0] / count[0]));
     record.put(quantity::boundary_stiffness_error, worst);
