@@ -35,6 +35,7 @@ std::optional<Estimate> Envelopes::find(std::string_view name) const {
     if (!one.fit || !name.starts_with("initiation." + std::string(one.id) + ".")) continue;
     if (name.ends_with(".intercept")) return one.fit->intercept;
     if (name.ends_with(".slope")) return one.fit->slope;
+    if (name.ends_with(".r_squared")) return Estimate{one.fit->r_squared, std::nan(""), std::nan("")};
   }
   return std::nullopt;
 }

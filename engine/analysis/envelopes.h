@@ -34,7 +34,7 @@ struct Envelopes {
   std::optional<EnvelopeFit> damage_fit;  ///< sigma_c held at UCS
   std::vector<Initiation> initiation;     ///< one for each reading
   /// A fitted value by name: "peak.m", "free.sigma_c", "free.m", "damage.m", "damage.s",
-  /// "initiation.READING.intercept", "initiation.READING.slope".
+  /// "initiation.READING.intercept", "initiation.READING.slope", "initiation.READING.r_squared".
   [[nodiscard]] std::optional<Estimate> find(std::string_view name) const;
 };
 

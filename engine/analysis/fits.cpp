@@ -146,6 +146,7 @@ std::optional<LineFit> fit_line(std::span<const double> x, std::span<const doubl
   const double slope_error = deviation / std::sqrt(xx);
   LineFit fit;
   fit.points = x.size();
+  fit.r_squared = off_y.squaredNorm() > 0 ? 1 - (off_y - slope * off_x).squaredNorm() / off_y.squaredNorm() : none;
   fit.slope = with_error(slope, slope_error, freedom);
   fit.intercept = with_error(mean_y - slope * mean_x, deviation * std::sqrt(1 / n + mean_x * mean_x / xx), freedom);
   fit.p_value = freedom < 1       ? none

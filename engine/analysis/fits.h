@@ -19,7 +19,8 @@ Estimate mean_of(std::span<const double> values);
 
 struct LineFit {
   Estimate intercept, slope;
-  double p_value = 0;  ///< of the slope against none, two-sided; NaN without an interval
+  double p_value = 0;    ///< of the slope against none, two-sided; NaN without an interval
+  double r_squared = 0;  ///< share of the scatter of y that the line takes; NaN where y is constant
   std::size_t points = 0;
   [[nodiscard]] double at(double x) const { return intercept.value + slope.value * x; }
 };

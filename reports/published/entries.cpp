@@ -50,7 +50,7 @@ void check_kind(const Json& entry, const std::string& id) {
     check_members(entry, id, with(needed, {"published", "tolerance"}), allowed);
     check_tolerance(entry, id);
   } else if (kind == "trend") {
-    check_members(entry, id, with(needed, {"published", "over"}), with(allowed, {"published_values"}));
+    check_members(entry, id, with(needed, {"published", "over"}), with(allowed, {"published_values", "resolution"}));
     if (entry.at("published") != "rises" && entry.at("published") != "falls") wrong(id, "a trend rises or falls");
   } else if (kind == "greater") {
     check_members(entry, id, with(needed, {"than"}), allowed);
@@ -102,6 +102,9 @@ void check_entries(const Json& file) {
     const std::string id = entry.at("id").get<std::string>();
     add(id);
     check_members(entry, id, {"id", "source", "quantity", "published"}, {"unit"});
+  }
+  for (const Json& entry : file.value("unchecked", Json::array())) {
+    check_members(entry, entry.value("statement", "?"), {"source", "statement", "why"}, {});
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "engine/analysis/statistics.h"
@@ -42,7 +43,12 @@ void compare_value(const Terms& terms, const Json& term, Comparison& row) {
     ours = terms.fitted(term);
     const double times = term.value("times", 1.0);
     for (double* part : {&ours.value, &ours.low, &ours.high}) *part *= times;
-    row.detail = ours.has_interval() ? interval_text(ours) : "as many points as unknowns: no interval";
+    const bool share = term.at("fit").get<std::string>().ends_with(".r_squared");
+    if (ours.has_interval()) {
+      row.detail = interval_text(ours) + ", of the misfit of the points, not of other specimens";
+    } else if (!share) {
+      row.detail = "as many points as unknowns: no interval";
+    }
   } else {
     const auto values = terms.values(term);
     ours = analysis::mean_of(values);
@@ -58,48 +64,92 @@ void compare_value(const Terms& terms, const Json& term, Comparison& row) {
   row.outcome = judge_value(ours.value, ours, band_of(row));
 }
 
-// The least-squares slope; detail lists the values, means of repeats, and tells how sure the slope is. Steps that the scenario
-// has no case for are left out, as long as two are left.
-void compare_trend(const Terms& terms, const Json& over, const Json& term, Comparison& row) {
-  std::vector<double> ours, x, y;
+/// The slope of a trend: over seeds, where the cases have them, else through all points.
+struct Slope {
+  analysis::Estimate value;
+  double p_value = std::nan("");
+  std::string words;  ///< how sure it is
+};
+
+// Cases of one seed share their packing, so that each seed gives one slope, and it is these that scatter.
+Slope paired_slope(const std::vector<double>& slopes) {
+  Slope all{analysis::mean_of(slopes), std::nan(""), {}};
+  const std::string each = number(all.value.value, 2);
+  if (!all.value.has_interval()) {
+    all.words = fmt::format("slope {}; {}: no interval", each, seeds_text(slopes.size()));
+    return all;
+  }
+  const auto [mean, deviation, count] = analysis::spread(slopes);
+  const auto n = static_cast<double>(count);
+  all.p_value = deviation > 0 ? analysis::student_two_sided(mean / (deviation / std::sqrt(n)), n - 1)
+                : mean == 0   ? 1
+                              : 0;
+  all.words = fmt::format("slope {}, the mean of {} seeds ({}, p = {})", each, count, interval_text(all.value, 2),
+                          number(all.p_value, 2));
+  return all;
+}
+
+Slope fitted_slope(const std::vector<double>& x, const std::vector<double>& y) {
+  const auto line = analysis::fit_line(x, y);
+  if (!line) throw NotComputed{"a trend needs two different steps"};
+  Slope all{line->slope, line->p_value, {}};
+  if (all.value.has_interval()) {
+    all.words = fmt::format("slope {} ({}, p = {})", number(all.value.value, 2), interval_text(all.value, 2),
+                            number(all.p_value, 2));
+  }
+  return all;
+}
+
+// Detail lists the values, means of repeats, and tells how sure the slope is. Steps that the scenario has no case for are
+// left out, as long as two are left. A change over all steps that is smaller than `resolution` of the values is undecided.
+void compare_trend(const Terms& terms, const Json& entry, const Json& term, Comparison& row) {
+  std::vector<double> means, x;
   std::vector<std::string> absent;
-  const auto axis = over.items().begin();
+  std::map<double, std::vector<double>> of_seed;  // values step by step
+  const auto axis = entry.at("over").items().begin();
   for (const Json& step : axis.value()) {
     const dem::Parameters at = {{axis.key(), step.get<double>()}};
     if (!terms.has_cases(term, at)) {
       absent.push_back(shortest(step.get<double>()));
       continue;
     }
-    const auto values = terms.values(term, at);
-    ours.push_back(analysis::spread(values).mean);
-    for (const double value : values) {
-      x.push_back(step.get<double>());
-      y.push_back(value);
+    std::vector<double> values;
+    for (const auto& [seed, value] : terms.by_seed(term, at)) {
+      values.push_back(value);
+      of_seed[seed].push_back(value);
     }
+    means.push_back(analysis::spread(values).mean);
+    x.push_back(step.get<double>());
   }
-  if (ours.size() < 2) {
+  if (x.size() < 2) {
     throw NotComputed{absent.empty() ? "a trend needs two cases"
                                      : "no cases at " + listed(absent) + " in this scenario"};
   }
-  const auto line = analysis::fit_line(x, y);
-  if (!line) throw NotComputed{"a trend needs two different steps"};
-  const analysis::Estimate& slope = line->slope;
-  row.outcome = judge_sign(slope, std::get<std::string>(row.published) == "rises" ? 1 : -1, terms.by_chance());
-  const std::string word = slope.value > 0 ? "rises" : slope.value < 0 ? "falls" : "stays level";
-  row.computed = row.outcome == Verdict::undecided && slope.has_interval() ? "no clear trend" : word;
-  const bool steady = std::ranges::is_sorted(ours) || std::ranges::is_sorted(ours, std::greater{});
+  std::vector<double> slopes;
+  for (const auto& [seed, values] : of_seed) {
+    if (values.size() != x.size()) continue;  // not at every step
+    if (const auto line = analysis::fit_line(x, values)) slopes.push_back(line->slope.value);
+  }
+  const Slope slope = terms.by_chance() ? paired_slope(slopes) : fitted_slope(x, of_seed.begin()->second);
+  row.outcome = judge_sign(slope.value, std::get<std::string>(row.published) == "rises" ? 1 : -1, terms.by_chance());
+  const std::string word = slope.value.value > 0 ? "rises" : slope.value.value < 0 ? "falls" : "stays level";
+  const bool steady = std::ranges::is_sorted(means) || std::ranges::is_sorted(means, std::greater{});
   std::vector<std::string> shown;
-  for (const double value : ours) shown.push_back(short_number(value));
+  for (const double value : means) shown.push_back(short_number(value));
   row.detail = joined(shown, " → ") + (steady ? "" : ", not at every step");
   if (!absent.empty()) row.detail += "; not run: " + joined(absent, ", ");
-  if (slope.has_interval()) {
-    row.detail += fmt::format("; slope {} ({}, p = {})", number(slope.value, 2), interval_text(slope, 2),
-                              number(line->p_value, 2));
-  } else if (terms.by_chance()) {
-    row.detail += "; two points have no interval";
+  if (!slope.words.empty()) row.detail += "; " + slope.words;
+  const double change = std::abs(slope.value.value * (x.back() - x.front()) / analysis::spread(means).mean);
+  const double resolution = entry.value("resolution", 0.0);
+  if (change < resolution) {
+    row.outcome = Verdict::undecided;
+    row.detail += fmt::format("; a change of {}, where half the loading rate makes {}", percent(change, 1),
+                              percent(resolution, 0));
   }
-  row.estimate = slope;
-  row.p_value = line->p_value;
+  const bool unclear = slope.value.has_interval() || change < resolution;
+  row.computed = row.outcome == Verdict::undecided && unclear ? "no clear trend" : word;
+  row.estimate = slope.value;
+  row.p_value = slope.p_value;
 }
 
 void compare_greater(const Terms& terms, const Json& of, const Json& than, Comparison& row) {
@@ -144,6 +194,15 @@ Comparison described(const Json& entry) {
   return row;
 }
 
+/// Whether the study has the cases of a term of the entry: two steps at least, where it goes over several.
+bool has_cases(const Terms& terms, const Json& entry, const Json& term) {
+  if (!entry.contains("over")) return terms.has_cases(term);
+  const auto axis = entry.at("over").items().begin();
+  return std::ranges::count_if(axis.value(), [&](const Json& step) {
+           return terms.has_cases(term, {{axis.key(), step.get<double>()}});
+         }) > 1;
+}
+
 /// Whether a number concerns the study: by the topics of its scenario, or by its cases.
 bool concerns(const StudyResult& study, const Terms& terms, const Json& entry) {
   const std::vector<std::string>& asked = study.scenario->texts("published");
@@ -153,13 +212,7 @@ bool concerns(const StudyResult& study, const Terms& terms, const Json& entry) {
   const auto named = [&](const std::string& topic) { return std::ranges::find(asked, topic) != asked.end(); };
   if (!asked.empty() && std::ranges::none_of(topics, named)) return false;
   if (!asked.empty() && !entry.value("optional", false)) return true;
-  if (!entry.contains("over")) {
-    return terms.has_cases(entry.at("of")) && (!entry.contains("than") || terms.has_cases(entry.at("than")));
-  }
-  const auto axis = entry.at("over").items().begin();
-  return std::ranges::count_if(axis.value(), [&](const Json& step) {
-           return terms.has_cases(entry.at("of"), {{axis.key(), step.get<double>()}});
-         }) > 1;
+  return has_cases(terms, entry, entry.at("of")) && (!entry.contains("than") || terms.has_cases(entry.at("than")));
 }
 
 /// Compares a row with what `term` of the entry, or of another reading of it, gives.
@@ -169,7 +222,7 @@ void evaluate(const StudyResult& study, const Terms& terms, const Json& entry, c
     if (row.kind == "value") {
       compare_value(terms, term, row);
     } else if (row.kind == "trend") {
-      compare_trend(terms, entry.at("over"), term, row);
+      compare_trend(terms, entry, term, row);
     } else {
       compare_greater(terms, term, entry.at("than"), row);
     }
@@ -196,7 +249,7 @@ void compare_entry(const StudyResult& study, const Terms& terms, const Paper& pa
   evaluate(study, terms, entry, entry.at("of"), all.front());
   for (const Json& reading : entry.value("readings", Json::array())) {
     const Json& term = reading.at("of");
-    if (row.kind == "value" && !terms.has_cases(term)) continue;
+    if (!has_cases(terms, entry, term)) continue;
     Comparison other = row;
     other.id = reading.at("id").get<std::string>();
     other.reading = reading.at("reading").get<std::string>();

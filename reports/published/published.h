@@ -4,7 +4,8 @@
 //    "quoted": [{"id", "source", "quantity", "unit", "published"}, ...]}
 // kind "value":   "published": 206.8 or [55, 60] (a range), "tolerance": {"relative": 0.1} or {"absolute": 0.03}, "of": TERM
 //      "trend":   "published": "rises" | "falls", "over": {"aspect_ratio": [1, 2, 3]}, "of": TERM; steps that the scenario has
-//                 no cases for are left out; "published_values": [...] are shown beside ours
+//                 no cases for are left out; "published_values": [...] are shown beside ours; "resolution": 0.08 leaves a
+//                 smaller relative change over all steps undecided, because half the loading rate makes as much
 //      "greater": "of": TERM, "than": TERM: ours must be greater, as published
 // TERM: see reports/published/terms.h. Which numbers concern a scenario: those with a topic of its key `published`; without
 // that key every number whose cases the scenario has.
@@ -17,6 +18,8 @@
 // "scale": "high" if the number belongs to another scale than its paper's (it is shown at that one only), "any" if the scale
 // does not matter. "optional": true leaves the number out where the scenario has not the case. "quoted" are numbers of the
 // paper that figures show and nothing of ours is compared with.
+// "unchecked": [{"source", "statement", "why"}] are statements about results that no number can be put beside; the page of the
+// paper in docs/papers lists them.
 #include <filesystem>
 #include <optional>
 #include <string>

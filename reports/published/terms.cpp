@@ -17,7 +17,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<const char*, 4> combinations{"quotient", "difference", "sum", "mean"};
+constexpr std::array<const char*, 8> combinations{"quotient", "difference", "distance", "sum",
+                                                  "mean",     "largest",    "least",    "apart"};
 
 // The terms that a term is made of; nullptr for one that is about cases.
 const Json* parts_of(const Json& term) {
@@ -28,7 +29,7 @@ const Json* parts_of(const Json& term) {
 }
 
 // A term about one case, whose members are parameters.
-bool of_a_case(const Json& term) { return term.contains("of") || term.contains("derived"); }
+bool of_a_case(const Json& term) { return !term.contains("constant") && !term.contains("fit"); }
 
 std::optional<double> seed_of(const CaseResult& one) {
   const dem::ParameterValue* value = dem::find_value(one.parameters, "seed");
@@ -54,6 +55,9 @@ double combined(const Json& term, const std::vector<double>& parts) {
     return parts.at(0) / parts.at(1);
   }
   if (term.contains("difference")) return parts.at(0) - parts.at(1);
+  if (term.contains("distance")) return std::abs(parts.at(0) - parts.at(1));
+  if (term.contains("largest")) return std::ranges::max(parts);
+  if (term.contains("least")) return std::ranges::min(parts);
   double sum = 0;
   for (const double part : parts) sum += part;
   return term.contains("mean") ? sum / static_cast<double>(parts.size()) : sum;
@@ -73,7 +77,7 @@ Terms::Terms(const StudyResult& study) : study_(study) {
 dem::Parameters Terms::named(const Json& term, const dem::Parameters& at) const {
   dem::Parameters parameters;
   for (const auto& [id, value] : term.items()) {
-    if (id == "of" || id == "derived" || id == "times") continue;
+    if (id == "of" || id == "derived" || id == "which" || id == "times") continue;
     if (id != "test") (void)dem::find_parameter(study_.parameters, id);
     parameters.emplace_back(id, value.is_string() ? dem::ParameterValue(value.get<std::string>())
                                                   : dem::ParameterValue(value.get<double>()));
@@ -111,9 +115,41 @@ analysis::Estimate Terms::fitted(const Json& term) const {
   return *found;
 }
 
+const CaseResult& Terms::case_of(const Json& term, const dem::Parameters& at, std::optional<double> seed) const {
+  const auto all = cases(term, at);
+  const auto one = std::ranges::find_if(all, [&](const CaseResult* c) { return !seed || seed_of(*c) == seed; });
+  if (one == all.end())
+    throw NotComputed{"this scenario has no case: " + case_words(study_.parameters, named(term, at))};
+  const CaseResult& result = **one;
+  if (!result.record) throw NotComputed{"case " + result.id + (result.error.empty() ? " was not run" : " failed")};
+  return result;
+}
+
+double Terms::furthest(const Json& term, const dem::Parameters& at, std::optional<double> seed) const {
+  const std::string family = term.at("furthest").get<std::string>();
+  const dem::Quantity& quantity = dem::find_quantity(study_.quantities, family);
+  const std::string_view start = std::string_view(family).substr(0, family.size() - 1);  // without the star
+  const dem::Record &a = *case_of(term.at("apart").at(0), at, seed).record,
+                    &b = *case_of(term.at("apart").at(1), at, seed).record;
+  double most = -1;
+  const auto compare = [&](const dem::Record& one, const dem::Record& other) {
+    for (const auto& [id, value] : one.results) {
+      if (!id.starts_with(start)) continue;
+      const double* there = other.find_result(id);  // a group without contacts has no share
+      most = std::max(most, std::abs(value - (there ? *there : 0.0)) * quantity.factor);
+    }
+  };
+  compare(a, b);
+  compare(b, a);
+  if (most < 0) throw NotComputed{"there is no result “" + std::string(quantity.name) + "”"};
+  return most;
+}
+
 double Terms::value(const Json& term, const dem::Parameters& at, std::optional<double> seed) const {
   double found = 0;
-  if (const Json* parts = parts_of(term)) {
+  if (term.contains("furthest")) {
+    found = furthest(term, at, seed);
+  } else if (const Json* parts = parts_of(term)) {
     std::vector<double> values;
     for (const Json& part : *parts) values.push_back(value(part, at, seed));
     found = combined(term, values);
@@ -122,17 +158,13 @@ double Terms::value(const Json& term, const dem::Parameters& at, std::optional<d
   } else if (term.contains("fit")) {
     found = fitted(term).value;
   } else {
-    const auto all = cases(term, at);
-    const auto one = std::ranges::find_if(all, [&](const CaseResult* c) { return !seed || seed_of(*c) == seed; });
-    if (one == all.end())
-      throw NotComputed{"this scenario has no case: " + case_words(study_.parameters, named(term, at))};
-    const CaseResult& result = **one;
-    if (!result.record) throw NotComputed{"case " + result.id + (result.error.empty() ? " was not run" : " failed")};
+    const CaseResult& result = case_of(term, at, seed);
     if (term.contains("derived")) {
       try {
-        found = derived_value(study_, *result.record, term.at("derived").get<std::string>());
-      } catch (const std::out_of_range&) {
-        throw NotComputed{"case " + result.id + " keeps no such table"};
+        found =
+            derived_value(study_, *result.record, term.at("derived").get<std::string>(), term.value("which", Json()));
+      } catch (const std::out_of_range& lacks) {
+        throw NotComputed{"case " + result.id + ": " + lacks.what()};
       }
     } else {
       const std::string id = term.at("of").get<std::string>();
@@ -146,12 +178,12 @@ double Terms::value(const Json& term, const dem::Parameters& at, std::optional<d
   return found * term.value("times", 1.0);
 }
 
-std::vector<double> Terms::values(const Json& term, const dem::Parameters& at) const {
-  std::vector<double> found;
-  if (seeds_.empty()) return {value(term, at, std::nullopt)};
+std::vector<std::pair<double, double>> Terms::by_seed(const Json& term, const dem::Parameters& at) const {
+  if (seeds_.empty()) return {{0.0, value(term, at, std::nullopt)}};
+  std::vector<std::pair<double, double>> found;
   for (const double seed : seeds_) {
     try {
-      found.push_back(value(term, at, seed));
+      found.emplace_back(seed, value(term, at, seed));
     } catch (const NotComputed&) {
       if (seed == seeds_.front()) throw;
     }
@@ -159,9 +191,17 @@ std::vector<double> Terms::values(const Json& term, const dem::Parameters& at) c
   return found;
 }
 
+std::vector<double> Terms::values(const Json& term, const dem::Parameters& at) const {
+  std::vector<double> found;
+  for (const auto& [seed, value] : by_seed(term, at)) found.push_back(value);
+  return found;
+}
+
 std::vector<std::pair<std::string, std::string>> results_of(const Json& term) {
   std::vector<std::pair<std::string, std::string>> found;
-  if (const Json* parts = parts_of(term)) {
+  if (term.contains("furthest")) {
+    found.emplace_back(term.at("furthest").get<std::string>(), "");
+  } else if (const Json* parts = parts_of(term)) {
     for (const Json& part : *parts) {
       for (auto& one : results_of(part)) found.push_back(std::move(one));
     }

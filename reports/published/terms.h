@@ -2,13 +2,18 @@
 // Terms of published numbers: what of a study a number is compared with.
 //   {"test": "compression", "aspect_ratio": 2, "of": "compressive_strength"}   a result, by the parameters of its case; those
 //                                                 that are not named have the scenario's own values; in the shown unit
-//   {"test": ..., "derived": "crack_angle"}       read off the case's tables (reports/published/derived.h)
+//   {"test": ..., "derived": "crack_angle"}       read off the case's tables, with a member "which" where it
+//                                                 needs one (reports/published/derived.h)
 //   {"fit": "peak.m", "mineral": "quartz"}        fitted through several cases
-//   {"sum": [TERM, ...]}  {"mean": [TERM, ...]}  {"difference": [TERM, TERM]}  {"quotient": [TERM, TERM]}  {"constant": 0}
+//   {"sum": [TERM, ...]}  {"mean": [TERM, ...]}  {"largest": [TERM, ...]}  {"least": [TERM, ...]}  {"constant": 0}
+//   {"difference": [TERM, TERM]}  {"quotient": [TERM, TERM]}  {"distance": [TERM, TERM]}: the difference without its sign
+//   {"furthest": "contact_share.*", "apart": [TERM, TERM]}: the largest distance of any member of the family; the terms name
+//                                                 cases without "of"
 //   "times": 100 scales any of them.
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/analysis/fits.h"
@@ -33,6 +38,10 @@ class Terms {
   /// Throws NotComputed; nlohmann::json::exception or std::out_of_range for a term that means nothing.
   [[nodiscard]] std::vector<double> values(const nlohmann::json& term, const dem::Parameters& at = {}) const;
 
+  /// The same with the seed of each; without seeds one value, at 0.
+  [[nodiscard]] std::vector<std::pair<double, double>> by_seed(const nlohmann::json& term,
+                                                               const dem::Parameters& at = {}) const;
+
   /// Whether the value grows with the specimen, by what its results are declared to be (dem::Quantity::of_size). The quotient
   /// of two that do does not.
   [[nodiscard]] bool of_size(const nlohmann::json& term) const;
@@ -45,6 +54,10 @@ class Terms {
 
  private:
   [[nodiscard]] double value(const nlohmann::json& term, const dem::Parameters& at, std::optional<double> seed) const;
+  [[nodiscard]] double furthest(const nlohmann::json& term, const dem::Parameters& at,
+                                std::optional<double> seed) const;
+  [[nodiscard]] const CaseResult& case_of(const nlohmann::json& term, const dem::Parameters& at,
+                                          std::optional<double> seed) const;
   [[nodiscard]] std::vector<const CaseResult*> cases(const nlohmann::json& term, const dem::Parameters& at) const;
   [[nodiscard]] dem::Parameters named(const nlohmann::json& term, const dem::Parameters& at) const;
 

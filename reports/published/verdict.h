@@ -5,7 +5,8 @@
 // A value has a tolerance. Its 95 % interval (of a fit, or of the mean of three or more seeds) is compared with the band that the
 // tolerance makes round the published value: inside is met, outside is missed, across an end of the band is undecided.
 // Without an interval (one or two seeds, as many points as unknowns) the value alone is compared: the tolerance is there for its scatter.
-// A trend (the slope of a straight line) and a difference (one result against another) have no tolerance. Their interval must
+// A trend is the slope of a straight line. Cases of one seed share their packing: each seed gives one slope, and the interval
+// is that of three seeds or more. A trend and a difference (one result against another) have no tolerance. Their interval must
 // leave out zero; it decides by its side. Without an interval they are undecided, but where nothing is left to chance: then
 // the sign decides.
 // At another scale than that of the published number nothing is judged.

@@ -186,7 +186,12 @@ TEST_CASE("only published numbers count as met or missed") {
 constexpr const char* falls =
     R"("kind": "trend", "published": "falls", "over": {"aspect_ratio": [1, 2, 3]}, "of": {"test": "compression", "of": "compressive_strength"})";
 
+void without_seeds(std::vector<dem::Record>& records) {
+  for (dem::Record& record : records) std::erase_if(record.parameters, [](const auto& p) { return p.first == "seed"; });
+}
+
 TEST_CASE_FIXTURE(Fixture, "a trend that its interval does not tell from scatter is undecided") {
+  without_seeds(records);
   const Comparison scattered = one(falls);  // 206, 190, 195
   CHECK(scattered.verdict == Verdict::undecided);
   CHECK(std::get<std::string>(*scattered.computed) == "no clear trend");
@@ -211,23 +216,65 @@ TEST_CASE_FIXTURE(Fixture, "two points alone have no interval") {
   const Comparison row = one(falls);
   CHECK(row.verdict == Verdict::undecided);
   CHECK(std::get<std::string>(*row.computed) == "falls");
-  CHECK(row.detail.find("two points have no interval") != std::string::npos);
-  for (dem::Record& record : records) std::erase_if(record.parameters, [](const auto& p) { return p.first == "seed"; });
+  CHECK(row.detail.find("one seed: no interval") != std::string::npos);
+  without_seeds(records);
   CHECK(one(falls).verdict == Verdict::met);  // nothing is left to chance
 }
 
-TEST_CASE_FIXTURE(Fixture, "a trend over several seeds must stand out of their scatter") {
-  const auto repeated = [&](double scatter) {
+TEST_CASE_FIXTURE(Fixture, "the slopes of several seeds decide a trend, under three nothing does") {
+  const auto repeated = [&](int seeds, double shift, double tilt, const std::string& more = "") {
     records.clear();
     for (int ar = 1; ar <= 3; ++ar) {
-      for (int seed = 1; seed <= 4; ++seed) {
-        records.push_back(made(ar, seed, 200.0 - 5 * ar + scatter * (seed - 2.5)));
-      }
+      for (int seed = 1; seed <= seeds; ++seed)
+        records.push_back(made(ar, seed, 200.0 - 5 * ar + (seed - 2.5) * (shift + tilt * ar)));
     }
-    return one(falls);
+    return one(falls + more);
   };
-  CHECK(repeated(0.5).verdict == Verdict::met);
-  CHECK(repeated(20).verdict == Verdict::undecided);
+  CHECK(repeated(4, 0, 0.5).verdict == Verdict::met);
+  CHECK(repeated(4, 20, 0.5).verdict == Verdict::met);  // stronger packings: each falls for itself
+  CHECK(repeated(4, 0, 20).verdict == Verdict::undecided);
+  CHECK(repeated(2, 0, 0).verdict == Verdict::undecided);
+  CHECK(repeated(1, 0, 0).verdict == Verdict::undecided);
+  CHECK(*repeated(4, 0, 0.5).p_value < 0.05);
+  CHECK(repeated(4, 0, 0.5).estimate->value == doctest::Approx(-5));
+  CHECK(repeated(4, 0, 0.5, R"(, "resolution": 0.04)").verdict == Verdict::met);  // 10 of 190
+  const Comparison small = repeated(4, 0, 0.5, R"(, "resolution": 0.08)");
+  CHECK(small.verdict == Verdict::undecided);
+  CHECK(std::get<std::string>(*small.computed) == "no clear trend");
+  records.erase(records.begin() + 11);  // a seed without its last step has no slope of all
+  CHECK(one(falls).detail.find("3 seeds") != std::string::npos);
+}
+
+TEST_CASE_FIXTURE(Fixture, "terms: extremes, distances, families and what is read off tables") {
+  for (dem::Record& record : records)
+    record.put(quantity::mineral_share, "quartz", record.number("aspect_ratio") == 2 ? 0.4 : 0.3);
+  records[2].put(quantity::mineral_share, "biotite", 0.25);
+  const std::string a = R"({"test": "compression", "aspect_ratio": 1, "of": "compressive_strength"})";
+  const std::string b = R"({"test": "compression", "aspect_ratio": 2, "of": "compressive_strength"})";
+  const auto of = [&](const std::string& term) {
+    return std::get<double>(*one(value("1", R"({"relative": 1})", "\"of\": " + term)).computed);
+  };
+  CHECK(of(R"({"largest": [)" + a + "," + b + "]}") == 206);
+  CHECK(of(R"({"least": [)" + a + "," + b + "]}") == 190);
+  CHECK(of(R"({"distance": [)" + b + "," + a + "]}") == doctest::Approx(16));
+  const auto furthest = [&](int one, int other) {
+    return of(fmt::format(R"({{"furthest": "mineral_share.*", "apart": [{{"test": "compression", "aspect_ratio": {}}},
+                          {{"test": "compression", "aspect_ratio": {}}}]}})",
+                          one, other));
+  };
+  CHECK(furthest(1, 2) == doctest::Approx(10));
+  CHECK(furthest(1, 3) == doctest::Approx(25));  // what one of them has not is none
+  CHECK(furthest(3, 1) == doctest::Approx(25));
+  const Comparison row = one(
+      value("1", R"({"relative": 1})",
+            R"("of": {"test": "compression", "aspect_ratio": 1, "derived": "cracks", "which": {"place": "inter"}})"));
+  CHECK(row.verdict == Verdict::not_computed);
+  CHECK(row.detail.find("compression_ar_1") != std::string::npos);  // it keeps no table of cracks
+  CHECK_THROWS_WITH_AS(
+      (void)one(value(
+          "1", R"({"relative": 1})",
+          R"("of": {"test": "compression", "aspect_ratio": 1, "derived": "cracks", "which": {"where": "inter"}})")),
+      doctest::Contains("cracks have no 'where'"), dem::EnvironmentError);
 }
 
 TEST_CASE_FIXTURE(Fixture, "the mean of three seeds has an interval, that of two is judged alone") {
@@ -357,6 +404,7 @@ TEST_CASE_FIXTURE(Fixture, "an entry that says what it cannot mean is refused by
 
 TEST_CASE_FIXTURE(Fixture, "steps of a trend may have a fraction") {
   records = {made(1, 1, 10), made(1.5, 1, 15), made(4, 1, 40)};
+  without_seeds(records);
   const Comparison row = one(
       R"("kind": "trend", "published": "rises", "over": {"aspect_ratio": [1, 1.5, 4]}, "of": {"test": "compression", "of": "compressive_strength"})");
   CHECK(row.verdict == Verdict::met);
