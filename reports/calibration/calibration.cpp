@@ -201,7 +201,9 @@ class Work {
     }
     x_ = at_stage(found.point);
     jacobian_(rows, columns) = found.jacobian;
-    keep_what_moves_nothing(stage, problem);
+    // Only differences tell that a parameter moves nothing: what a search learns on its way holds the noise of the cracks.
+    if (std::ranges::any_of(found.path, [](const auto& trial) { return trial.is_difference; }))
+      keep_what_moves_nothing(stage, problem);
     for (std::size_t j = 0; j < stage.parameters.size(); ++j) {
       if (lost_[stage.parameters[j]]) continue;
       if (found.at_low[j] || found.at_high[j]) bounded_.push_back({stage.parameters[j], found.at_high[j]});
