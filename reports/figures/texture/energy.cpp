@@ -61,9 +61,9 @@ void add_dissipated(FigureContent& content, const std::vector<SeriesCase>& cases
                              .line = render::Line::dot});
   };
   if (record.has(quantity::initiation_strain))
-    mark(strain_at(*history, "axial_strain", record.value(quantity::initiation_strain)), "σ_ci");
+    mark(strain_at(*history, "axial_strain", record.value(quantity::initiation_strain)), "σ_{ci}");
   if (record.has(quantity::crack_damage_strain))
-    mark(strain_at(*history, "axial_strain", record.value(quantity::crack_damage_strain)), "σ_cd");
+    mark(strain_at(*history, "axial_strain", record.value(quantity::crack_damage_strain)), "σ_{cd}");
   mark(strain_at(*history, "axial_stress", *std::ranges::max_element(stress)), "peak");
   chart.x.title = "Strain of the platens (%)";
   chart.left.title = "Dissipated (kJ/m³)";
