@@ -113,7 +113,9 @@ inline constexpr Quantity compressive_strength_error{
     .name = "Compressive strength, deviation from theory",
     .unit = "%",
     .tests = "compression",
-    .meaning = "Strength of the block over that of the rock, less one."};
+    .meaning =
+        "Strength of the block over that of the rock, less one; under pressure the rock’s is Cᵤ and what its "
+        "internal friction adds."};
 inline constexpr Quantity peak_strain =
     measured(dem::quantity::peak_strain, strength, "Strain at the largest stress, as measure.gauge has it.");
 inline constexpr Quantity failure_time{.id = "failure_time",

@@ -209,7 +209,8 @@ Opening largest_opening(const std::vector<Sample>& h, std::int64_t peak_step, co
 void compression_results(Record& r, const Settings& s, const StrengthTest& test, const StressStrain& m) {
   const auto& h = test.history();
   const double dt = s.setup.time_step;
-  put_strength(r, test, m, s.rock.compressive_strength, quantity::compressive_strength,
+  const double root = std::sqrt(1 + s.rock.internal_friction * s.rock.internal_friction) + s.rock.internal_friction;
+  put_strength(r, test, m, s.rock.compressive_strength + root * root * s.setup.pressure, quantity::compressive_strength,
                quantity::compressive_strength_error);
   if (test.failed()) r.put(quantity::peak_strain, m.strain(test.peak()));
   const auto before_first = [&](auto Sample::*count) {
