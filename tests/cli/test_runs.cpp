@@ -346,7 +346,9 @@ TEST_CASE("every figure of the lattice can be drawn, by each kind of planes") {
   INFO(outcome.err);
   const fs::path output = folder.path() / "out/quartzite_energy.smoke";
   CHECK(outcome.code == due_code_of(output));
-  CHECK_FALSE(has(dem::read_file(output / "report.html"), "could not be drawn"));
+  const std::string report = dem::read_file(output / "report.html");
+  CHECK_FALSE(has(report, "could not be drawn"));
+  CHECK(has(report, "Longitudinal waves of the rock run at 6014 m/s"));
   for (const char* planes : {"rigid", "plate", "elastic"}) {
     CAPTURE(planes);
     CHECK(fs::exists(output / "figures" / (std::string("quartzite_fragments_apart_tension_") + planes + ".png")));

@@ -230,6 +230,16 @@ FigureContent crack_maps(const StudyResult& study) {
   return content;
 }
 
+namespace {
+
+/// Of longitudinal waves in the rock (m/s), by its E, nu and density.
+double wave_speed(const dem::Scenario& s) {
+  const double nu = s.real("rock.poisson_ratio");
+  return std::sqrt(s.real("rock.young_modulus") * (1 - nu) / (s.real("rock.density") * (1 + nu) * (1 - 2 * nu)));
+}
+
+}  // namespace
+
 FigureContent crack_front(const StudyResult& study) {
   FigureContent content;
   content.statement =
@@ -273,7 +283,11 @@ FigureContent crack_front(const StudyResult& study) {
     said.push_back(fmt::format("{} planes: {} by the crack front, {} m/s by the width over the time from D₁ to D₂",
                                planes, speed_text(f.speed), number(r->value_or_nan(quantity::crack_speed), 3)));
   }
-  if (!said.empty()) content.finding = sentence(said);
+  if (said.empty()) return content;
+  content.finding = sentence(said);
+  content.finding +=
+      fmt::format(" Longitudinal waves of the rock run at {} m/s: a faster front is many cracks at once.",
+                  number(wave_speed(*study.scenario), 4));
   return content;
 }
 
