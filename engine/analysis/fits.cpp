@@ -129,6 +129,22 @@ Estimate mean_of(std::span<const double> values) {
   return with_error(known.mean, known.deviation / std::sqrt(count), count - 1);
 }
 
+Estimate ratio_of_means(std::span<const double> a, std::span<const double> b) {
+  const Spread one = spread(a), two = spread(b);
+  const double ratio = one.mean / two.mean;
+  constexpr std::size_t fewest = 3;
+  if (!std::isfinite(ratio) || one.count < fewest || two.count < fewest) return {ratio, none, none};
+  const auto variance = [](const Spread& of) {
+    return of.deviation * of.deviation / static_cast<double>(of.count) / (of.mean * of.mean);
+  };
+  const double v1 = variance(one), v2 = variance(two), sum = v1 + v2;
+  const double freedom =
+      sum > 0
+          ? sum * sum / (v1 * v1 / static_cast<double>(one.count - 1) + v2 * v2 / static_cast<double>(two.count - 1))
+          : static_cast<double>(one.count + two.count - 2);
+  return with_error(ratio, std::abs(ratio) * std::sqrt(sum), freedom);
+}
+
 double student_two_sided(double t, double freedom) { return 2 * cdf(complement(Student(freedom), std::abs(t))); }
 
 double student_limit(double probability, double freedom) {

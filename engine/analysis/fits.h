@@ -17,6 +17,10 @@ struct Estimate {
 /// Mean of repeats with its interval by Student's t: of three values or more. NaN of none.
 Estimate mean_of(std::span<const double> values);
 
+/// The mean of `a` over that of `b`, of unlike samples: its interval from both scatters to first order, with the degrees of
+/// freedom of Welch and Satterthwaite; of three values or more each. NaN of none.
+Estimate ratio_of_means(std::span<const double> a, std::span<const double> b);
+
 struct LineFit {
   Estimate intercept, slope;
   double p_value = 0;    ///< of the slope against none, two-sided; NaN without an interval

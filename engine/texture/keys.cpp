@@ -282,7 +282,7 @@ std::vector<Key> declare_study() {
        .standard = "0.6",
        .affects = Affects::test,
        .when = {"loaded"},
-       .help = "length of the strain gauge over the height"},
+       .help = "length of the strain gauge over the height; of a disc: its diameter over the disc's radius"},
       {.path = "measure.stiffness_departure",
        .low = 0.001,
        .high = 0.5,
@@ -295,7 +295,7 @@ std::vector<Key> declare_study() {
        .high = 1,
        .standard = "0.03",
        .affects = Affects::test,
-       .when = {"compression", "direct_tension"},
+       .when = {"loaded"},
        .help = "share by which fast loading may move strengths and moduli before the check quasi_static fails"},
       {.path = "emission.window",
        .low = 1,
@@ -463,15 +463,14 @@ namespace {
 // Particles must be small beside the specimen and its grains: else what is measured is their packing, not the rock.
 void check_fineness(const Scenario& s, const Settings& r) {
   const double particle = r.packing.radius_min * (1 + r.packing.radius_ratio);  // mean diameter
-  const double across = r.packing.vessel.diameter / particle;
+  const double smallest = body_of(r).smallest(), across = smallest / particle;
   if (across < least_across) {
-    throw s.error(
-        "packing.minimum_radius",
-        fmt::format("only {:.1f} particles lie across the specimen: their mean diameter is {:.3g} mm", across,
-                    1e3 * particle),
-        fmt::format("write at most {:.3g} mm, for {:.0f} across; with fewer there is no inside that the "
-                    "platens and the jacket do not hold",
-                    1e3 * r.packing.vessel.diameter / (least_across * (1 + r.packing.radius_ratio)), least_across));
+    throw s.error("packing.minimum_radius",
+                  fmt::format("only {:.1f} particles lie across the specimen: their mean diameter is {:.3g} mm", across,
+                              1e3 * particle),
+                  fmt::format("write at most {:.3g} mm, for {:.0f} across; with fewer there is no inside that the "
+                              "platens and the jacket do not hold",
+                              1e3 * smallest / (least_across * (1 + r.packing.radius_ratio)), least_across));
   }
   if (r.one_mineral) return;  // its grains are no boundaries
   double grain = 0;
@@ -497,17 +496,21 @@ Settings read_settings(const Scenario& s, std::string_view test) {
   r.packing.pressure = s.real("packing.pressure_ratio") * r.packing.modulus;
   r.packing.porosity = s.real("packing.porosity");
   r.packing.seed = s.seed();
+  r.test = test_entry(test).read(s);
+  const double particle = r.packing.radius_min * (1 + r.packing.radius_ratio);  // mean diameter
+  if (r.test.body) r.packing.vessel = vessel_of(*r.test.body, particle);
+  if (!r.test.body && r.packing.vessel.height < r.packing.vessel.diameter) {
+    throw s.error("specimen.height", "the specimen is wider than high", "the height must be at least the diameter");
+  }
   // Packings of granite's particles at 11.4 minimum radii do not come to rest for three seeds of four, at 12.9 they do.
   constexpr double narrowest = 13;
-  if (r.packing.vessel.diameter < narrowest * r.packing.radius_min * (1 - 1e-9)) {
-    throw s.error("specimen.diameter",
-                  fmt::format("{} is too narrow for its particles: the packing would not come to rest",
-                              in_unit(r.packing.vessel.diameter, "mm")),
-                  fmt::format("write at least {:.4g} mm, {:g} times packing.minimum_radius",
-                              1e3 * narrowest * r.packing.radius_min, narrowest));
-  }
-  if (r.packing.vessel.height < r.packing.vessel.diameter) {
-    throw s.error("specimen.height", "the specimen is wider than high", "the height must be at least the diameter");
+  const double smallest = body_of(r).smallest();
+  if (smallest < narrowest * r.packing.radius_min * (1 - 1e-9)) {
+    throw s.error(
+        r.test.size_key,
+        fmt::format("{} is too narrow for its particles: the packing would not come to rest", in_unit(smallest, "mm")),
+        fmt::format("write at least {:.4g} mm, {:g} times packing.minimum_radius",
+                    1e3 * narrowest * r.packing.radius_min, narrowest));
   }
   double sum = 0;
   const std::string& only = s.text("texture.only_mineral");
@@ -532,7 +535,7 @@ Settings read_settings(const Scenario& s, std::string_view test) {
     if (m.diameter_max < m.diameter_min) {
       throw s.error(key("diameter_max"), "it is smaller than diameter_min", "the range runs from diameter_min up");
     }
-    if (m.diameter_min * s.real("texture.seed_scale") > r.packing.vessel.diameter) {
+    if (m.diameter_min * s.real("texture.seed_scale") > smallest) {
       throw s.error(key("diameter_min"), "the grains are larger than the specimen",
                     "choose grains that fit its diameter");
     }
@@ -575,7 +578,6 @@ Settings read_settings(const Scenario& s, std::string_view test) {
   r.same_mineral_boundaries = s.boolean("texture.same_mineral_boundaries") && !r.one_mineral;
   r.damping = s.real("solver.damping");
   r.time_step_factor = s.real("solver.time_step_factor");
-  r.test = test_entry(test).read(s);
   r.gauge = s.real("measure.gauge");
   r.rate_bias = s.real("measure.rate_bias");
   r.stiffness_departure = s.real("measure.stiffness_departure");

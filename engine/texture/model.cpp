@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "engine/model/keeper.h"
+#include "engine/scenario/units.h"
 #include "engine/texture/genesis/packing.h"
 #include "engine/texture/keys.h"
 #include "engine/texture/loading/loading.h"
@@ -22,18 +23,17 @@ namespace {
 // Raised whenever results change.
 constexpr std::string_view physics_version = "grain_texture 6";
 
-/// One specimen of the scenario, and the pressure that it is tested under.
+/// One specimen of the scenario, and how it is tested.
 struct Variant {
   double aspect_ratio = 1, dip = 0, seed_scale = 1;  ///< -, rad, -
   std::string growth = {}, between = {}, only_mineral = {};
-  double pressure_ratio = 0;      ///< of the packing
-  double confining_pressure = 0;  ///< Pa
+  double pressure_ratio = 0;  ///< of the packing
+  double swept = 0;           ///< what cases of the test differ in beside (TestEntry::sweep), SI; a confining pressure
   std::int64_t seed = 1;
   std::optional<std::size_t> extra = {};  ///< the [[extra]] that asks for it; none: the sweeps do
 
   [[nodiscard]] auto values() const {
-    return std::tie(aspect_ratio, dip, seed_scale, growth, between, only_mineral, pressure_ratio, confining_pressure,
-                    seed);
+    return std::tie(aspect_ratio, dip, seed_scale, growth, between, only_mineral, pressure_ratio, swept, seed);
   }
 };
 
@@ -52,8 +52,11 @@ std::string source_of(const Scenario& base, const Variant& v, const std::string&
 }
 
 CaseSpec case_of(const Scenario& base, const std::string& test, const Variant& v) {
-  const auto from = [&](const char* name) { return source_of(base, v, name); };
-  const double dip = tidy(v.dip * degrees), pressure = tidy(v.confining_pressure * 1e-6);
+  const auto from = [&](std::string_view name) { return source_of(base, v, std::string(name)); };
+  const std::optional<Sweep>& sweep = test_entry(test).sweep;
+  const double dip = tidy(v.dip * degrees);
+  const double swept = sweep ? tidy(v.swept / to_si(1, sweep->parameter.unit)) : 0;
+  const bool confined = sweep && sweep->parameter.id == parameter::confining_pressure.id;
   Scenario scenario = base.with("texture.aspect_ratio", v.aspect_ratio, from("aspect_ratio"))
                           .with("texture.seed_scale", v.seed_scale, from("seed_scale"))
                           .with("texture.growth", v.growth, from("growth"))
@@ -61,12 +64,13 @@ CaseSpec case_of(const Scenario& base, const std::string& test, const Variant& v
                           .with("packing.pressure_ratio", v.pressure_ratio, from("pressure_ratio"))
                           .with("texture.dip", v.dip, from("dip"))
                           .with("texture.only_mineral", v.only_mineral, from("mineral"))
-                          .with("compression.confining_pressure", v.confining_pressure, from("confining_pressure"))
+                          .with("compression.confining_pressure", confined ? v.swept : 0.0, from("confining_pressure"))
                           .with("seed", v.seed);
+  if (sweep && !confined) scenario = scenario.with(sweep->key(), v.swept, from(sweep->name));
   if (const auto resolve = test_entry(test).resolve) scenario = resolve(scenario);
   std::string id = test + "_" + (v.only_mineral.empty() ? "ar_" + id_part(v.aspect_ratio) : id_part(v.only_mineral));
   if (!base.reals("sweep.dip").empty() || v.dip != 0) id += "_dip_" + id_part(dip);
-  if (pressure > 0) id += "_sigma3_" + id_part(pressure);
+  if (swept > 0) id += fmt::format("_{}_{}", sweep->parameter.in_ids, id_part(swept));
   if (v.seed_scale != base.real("texture.seed_scale")) id += "_seed_scale_" + id_part(v.seed_scale);
   if (v.growth != base.text("texture.growth")) id += "_" + v.growth;
   if (v.between != base.text("interaction.between")) id += "_between_" + v.between;
@@ -83,8 +87,9 @@ CaseSpec case_of(const Scenario& base, const std::string& test, const Variant& v
                            of(parameter::between, v.between),
                            of(parameter::pressure_ratio, v.pressure_ratio),
                            of(parameter::mineral, v.only_mineral),
-                           of(parameter::confining_pressure, pressure),
+                           of(parameter::confining_pressure, confined ? swept : 0.0),
                            of(parameter::seed, static_cast<double>(v.seed))};
+  if (sweep && !confined) parameters.push_back(of(sweep->parameter, swept));
   std::vector<std::string> kinds = {test};
   if (test_entry(test).read(scenario).loads()) kinds.emplace_back("loaded");  // Key::when of the rock and the solver
   return make_case(model(), std::move(id), std::move(scenario), std::move(parameters), kinds);
@@ -95,8 +100,8 @@ std::vector<double> swept(const Scenario& s, const std::string& sweep, const std
   return values.empty() ? std::vector<double>{s.real(single)} : values;
 }
 
-/// Every combination of what is swept; repeats innermost, so that the specimens of one kind stand together.
-std::vector<Variant> variants_of(const Scenario& s) {
+/// Every combination of what is swept for a test; repeats innermost, so that the specimens of one kind stand together.
+std::vector<Variant> variants_of(const Scenario& s, const std::optional<Sweep>& sweep) {
   std::vector<Variant> variants;
   const auto add = [&](const Variant& v, const std::string& key) {
     if (std::ranges::any_of(variants, [&](const Variant& other) { return other.values() == v.values(); })) {
@@ -105,10 +110,15 @@ std::vector<Variant> variants_of(const Scenario& s) {
     }
     variants.push_back(v);
   };
-  for (const char* sweep : {"sweep.aspect_ratio", "sweep.dip", "sweep.confining_pressure", "sweep.mineral"}) {
-    const bool empty = std::string_view(sweep) == "sweep.mineral" ? s.texts(sweep).empty() : s.reals(sweep).empty();
-    if (s.given(sweep) && empty)
-      throw s.error(sweep, "the list is empty", "give at least one value, or leave the key out");
+  std::vector<std::string> lists = {"sweep.aspect_ratio", "sweep.dip", "sweep.mineral"};
+  for (const TestEntry& entry : tests()) {
+    if (entry.sweep) lists.push_back(entry.sweep->list());
+  }
+  for (const std::string& list : lists) {
+    const bool empty = list == "sweep.mineral" ? s.texts(list).empty() : s.reals(list).empty();
+    if (s.given(list) && empty) {
+      throw s.error(list, "the list is empty", "give at least one value, or leave the key out");
+    }
   }
   const auto repeats = s.integer("repeats");
   if (const std::int64_t room = largest_seed - static_cast<std::int64_t>(s.seed()); repeats - 1 > room) {
@@ -128,7 +138,7 @@ std::vector<Variant> variants_of(const Scenario& s) {
   for (const std::string& mineral : minerals) {
     for (const double ar : swept(s, "sweep.aspect_ratio", "texture.aspect_ratio")) {
       for (const double dip : swept(s, "sweep.dip", "texture.dip")) {
-        for (const double pressure : swept(s, "sweep.confining_pressure", "compression.confining_pressure")) {
+        for (const double value : sweep ? swept(s, sweep->list(), sweep->key()) : std::vector<double>{0}) {
           add_repeats({.aspect_ratio = ar,
                        .dip = dip,
                        .seed_scale = s.real("texture.seed_scale"),
@@ -136,7 +146,7 @@ std::vector<Variant> variants_of(const Scenario& s) {
                        .between = s.text("interaction.between"),
                        .only_mineral = mineral,
                        .pressure_ratio = s.real("packing.pressure_ratio"),
-                       .confining_pressure = pressure},
+                       .swept = value},
                       s.reals("sweep.dip").empty() ? "sweep.aspect_ratio" : "sweep.dip");
         }
       }
@@ -151,7 +161,7 @@ std::vector<Variant> variants_of(const Scenario& s) {
                  .between = s.text(key("between")),
                  .only_mineral = s.text("texture.only_mineral"),
                  .pressure_ratio = s.real(key("pressure_ratio")),
-                 .confining_pressure = s.real("compression.confining_pressure"),
+                 .swept = sweep ? s.real(sweep->key()) : 0,
                  .extra = i},
                 key("aspect_ratio"));
   }
@@ -163,19 +173,14 @@ std::vector<Variant> variants_of(const Scenario& s) {
 int threads_of(double particles) { return std::clamp(static_cast<int>(particles / 15000), 1, 64); }
 
 std::vector<CaseSpec> cases(const Scenario& scenario) {
-  const std::vector<Variant> variants = variants_of(scenario);
   const std::vector<std::string>& tests = scenario.texts("tests");
   std::vector<CaseSpec> list;
   for (const std::string& test : tests) {
     if (std::count(tests.begin(), tests.end(), test) > 1) {
       throw scenario.error("tests", "'" + test + "' is named twice", "name each test once");
     }
-    const bool confined = test_entry(test).confined;
-    for (const Variant& v : variants) {
-      Variant tested = v;
-      if (!confined) tested.confining_pressure = 0;
-      CaseSpec made = case_of(scenario, test, tested);
-      if (!confined && std::ranges::find(list, made.id, &CaseSpec::id) != list.end()) continue;
+    for (const Variant& v : variants_of(scenario, test_entry(test).sweep)) {
+      CaseSpec made = case_of(scenario, test, v);
       const Settings settings = read_settings(made.scenario, test);
       if (settings.test.loads()) made.threads = threads_of(expected_spheres(settings.packing));
       list.push_back(std::move(made));

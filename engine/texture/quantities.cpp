@@ -8,6 +8,16 @@ std::span<const Quantity> quantities() {
                                        poisson_ratio,
                                        compressive_strength,
                                        tensile_strength,
+                                       brazilian_strength,
+                                       first_cracks_middle,
+                                       first_cracks_band,
+                                       fracture_toughness,
+                                       mouth_opening,
+                                       shear_strength,
+                                       residual_shear,
+                                       dilation_at_peak,
+                                       unloading_modulus,
+                                       loop_damage,
                                        peak_strain,
                                        residual_over_peak,
                                        initiation_by_stiffness,
@@ -49,8 +59,9 @@ std::span<const Quantity> quantities() {
 
 std::span<const Parameter> parameters() {
   using namespace parameter;
-  static constexpr std::array declared{aspect_ratio,   dip,     seed_scale,         growth, between,
-                                       pressure_ratio, mineral, confining_pressure, seed};
+  static constexpr std::array declared{
+      aspect_ratio,       dip,       seed_scale,    growth, between, pressure_ratio, mineral,
+      confining_pressure, jaw_ratio, normal_stress, seed};
   return declared;
 }
 

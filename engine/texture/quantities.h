@@ -13,27 +13,105 @@ using dem::quantity::measured, dem::quantity::scattered;
 
 // Scatter: of the granite at draft scale (docs/notes/texture-and-seed.md).
 
-inline constexpr std::string_view loaded = "compression direct_tension";
+inline constexpr std::string_view loaded =
+    "compression direct_tension brazilian semicircular_bending direct_shear unloading_loops";
+/// Those of a cylinder that is stretched or shortened along its axis.
+inline constexpr std::string_view stretched = "compression direct_tension unloading_loops";
+inline constexpr std::string_view shortened = "compression unloading_loops";
 
 inline constexpr Quantity young_modulus = scattered(
     measured(
-        dem::quantity::young_modulus, loaded,
+        dem::quantity::young_modulus, stretched,
         "Slope of axial stress over the axial strain of the gauge, least squares between 10 and 30 % of the peak."),
     0.017);
-inline constexpr Quantity poisson_ratio = measured(dem::quantity::poisson_ratio, "compression",
+inline constexpr Quantity poisson_ratio = measured(dem::quantity::poisson_ratio, shortened,
                                                    "Lateral over axial strain of the gauge at half the peak stress.");
 inline constexpr Quantity compressive_strength =
-    scattered(measured(dem::quantity::compressive_strength, "compression",
+    scattered(measured(dem::quantity::compressive_strength, shortened,
                        "Largest axial stress; without confining pressure the uniaxial compressive strength, UCS."),
               0.03);
 inline constexpr Quantity tensile_strength = scattered(
     measured(dem::quantity::tensile_strength, "direct_tension", "Largest axial stress between the grips."), 0.04);
+inline constexpr Quantity brazilian_strength{
+    .id = "brazilian_strength",
+    .name = "Splitting strength (Brazilian)",
+    .symbol = "σ_B",
+    .unit = "MPa",
+    .tests = "brazilian",
+    .meaning = "2P/(πDt) of the largest load P on a disc of diameter D and thickness t."};
+inline constexpr Quantity first_cracks_middle{
+    .id = "first_cracks.middle",
+    .name = "First cracks in the middle of the disc",
+    .shown = "%",
+    .factor = 100,
+    .tests = "brazilian",
+    .meaning =
+        "Share of the first cracks within half the radius of the disc’s axis; 25 % of cracks spread evenly are there. "
+        "First are a hundredth of those at the peak, and ten at least."};
+inline constexpr Quantity first_cracks_band{.id = "first_cracks.band",
+                                            .name = "First cracks along the loaded diameter",
+                                            .shown = "%",
+                                            .factor = 100,
+                                            .tests = "brazilian",
+                                            .meaning =
+                                                "Share of the same cracks within a quarter of the radius of the plane "
+                                                "through both loads; 31 % of cracks spread "
+                                                "evenly are there."};
+inline constexpr Quantity fracture_toughness{
+    .id = "fracture_toughness",
+    .name = "Fracture toughness",
+    .symbol = "K_Ic",
+    .unit = "MPa√m",
+    .tests = "semicircular_bending",
+    .meaning = "Stress intensity at the tip of the notch at the largest load, by Kuruppu et al. 2014."};
+inline constexpr Quantity mouth_opening{
+    .id = "mouth_opening",
+    .name = "Notch opening at the largest load",
+    .symbol = "CMOD",
+    .unit = "µm",
+    .tests = "semicircular_bending",
+    .meaning =
+        "Distance that the particles to both sides of the mid-span have moved apart "
+        "at the lower face."};
+inline constexpr Quantity shear_strength{.id = "shear_strength",
+                                         .name = "Peak shear strength",
+                                         .symbol = "τ_p",
+                                         .unit = "MPa",
+                                         .tests = "direct_shear",
+                                         .meaning = "Largest shear force over the area of the block."};
+inline constexpr Quantity residual_shear{
+    .id = "residual_shear_strength",
+    .name = "Residual shear strength",
+    .symbol = "τ_r",
+    .unit = "MPa",
+    .tests = "direct_shear",
+    .meaning =
+        "Mean shear stress over the last fifth of the shear displacement, of blocks that were sheared to the end."};
+inline constexpr Quantity dilation_at_peak{.id = "dilation_at_peak",
+                                           .name = "Rise of the upper half at the peak",
+                                           .unit = "µm",
+                                           .tests = "direct_shear",
+                                           .meaning = "Against its place under the normal stress alone."};
+inline constexpr Quantity unloading_modulus{
+    .id = "unloading_modulus",
+    .name = "Modulus of the first unloading",
+    .symbol = "E_u",
+    .unit = "GPa",
+    .tests = "unloading_loops",
+    .meaning =
+        "Secant of the first loop, from the stress where it was turned down to the stress where it was turned up."};
+inline constexpr Quantity loop_damage{
+    .id = "loop_damage.*",
+    .name = "Damage at a loop",
+    .symbol = "D",
+    .tests = "unloading_loops",
+    .meaning = "1 - E/E₁, E the secant modulus of a loop’s unloading and E₁ that of the first; by the loop’s number."};
 inline constexpr Quantity peak_strain =
-    measured(dem::quantity::peak_strain, loaded, "Axial strain of the gauge at the largest axial stress.");
+    measured(dem::quantity::peak_strain, stretched, "Axial strain of the gauge at the largest axial stress.");
 inline constexpr Quantity residual_over_peak{
     .id = "residual_over_peak",
     .name = "Residual over peak stress",
-    .tests = "compression",
+    .tests = shortened,
     .meaning =
         "Mean axial stress over the last twentieth of the platens’ strain, over the peak; of tests that are "
         "followed beyond their end."};
@@ -42,7 +120,7 @@ inline constexpr Quantity initiation_by_stiffness{
     .name = "Crack initiation stress, by axial stiffness",
     .symbol = "σ_ci",
     .unit = "MPa",
-    .tests = "compression",
+    .tests = shortened,
     .meaning = "Stress at which the axial stiffness leaves its early plateau by measure.stiffness_departure."};
 inline constexpr Quantity initiation_strain{
     .id = "crack_initiation_strain.axial_stiffness",
@@ -50,13 +128,13 @@ inline constexpr Quantity initiation_strain{
     .symbol = "ε_ci",
     .shown = "%",
     .factor = 100,
-    .tests = "compression",
+    .tests = shortened,
     .meaning = "Axial strain of the gauge where the axial stiffness leaves its plateau."};
 inline constexpr Quantity stress_at_strain{.id = "crack_initiation.strain_0_1_percent",
                                            .name = "Stress at 0.1 % axial strain",
                                            .symbol = "σ_ci",
                                            .unit = "MPa",
-                                           .tests = "compression",
+                                           .tests = shortened,
                                            .meaning =
                                                "Axial stress at an axial strain of 0.1 %, the strain at which the "
                                                "paper finds crack initiation."};
@@ -65,21 +143,21 @@ inline constexpr Quantity initiation_by_cracks{
     .name = "Crack initiation stress, 1 % of cracks at the peak",
     .symbol = "σ_ci",
     .unit = "MPa",
-    .tests = "compression",
+    .tests = shortened,
     .meaning = "Stress at which 1 % of the cracks that are there at the peak have formed."};
 inline constexpr Quantity initiation_by_volume{
     .id = "crack_initiation.crack_volumetric_strain",
     .name = "Crack initiation stress, by crack volumetric strain",
     .symbol = "σ_ci",
     .unit = "MPa",
-    .tests = "compression",
+    .tests = shortened,
     .meaning = "Stress at which the crack volumetric strain, what is left after the elastic part, turns back."};
 inline constexpr Quantity crack_damage{.id = "crack_damage",
                                        .name = "Crack damage stress",
                                        .symbol = "σ_cd",
                                        .unit = "MPa",
                                        .scatter = 0.05,
-                                       .tests = "compression",
+                                       .tests = shortened,
                                        .meaning = "Stress at the largest volumetric strain before the peak."};
 inline constexpr Quantity crack_damage_strain{
     .id = "crack_damage_strain",
@@ -87,7 +165,7 @@ inline constexpr Quantity crack_damage_strain{
     .symbol = "ε_cd",
     .shown = "%",
     .factor = 100,
-    .tests = "compression",
+    .tests = shortened,
     .meaning = "Axial strain of the gauge at the largest volumetric strain before the peak."};
 
 inline constexpr Quantity inter_grain_share{
@@ -288,6 +366,23 @@ inline constexpr Parameter confining_pressure{.id = "confining_pressure",
                                               .axis = true,
                                               .words = "the confining pressure",
                                               .step = "MPa of confining pressure"};
+inline constexpr Parameter jaw_ratio{.id = "jaw_ratio",
+                                     .name = "Radius of the jaws over that of the disc",
+                                     .symbol = "jaws",
+                                     .in_ids = "jaws",
+                                     .key = "brazilian.jaw_ratio",
+                                     .axis = true,
+                                     .words = "the jaw ratio",
+                                     .step = "unit of the jaw ratio"};
+inline constexpr Parameter normal_stress{.id = "normal_stress",
+                                         .name = "Normal stress σₙ",
+                                         .symbol = "σₙ",
+                                         .unit = "MPa",
+                                         .in_ids = "normal",
+                                         .key = "direct_shear.normal_stress",
+                                         .axis = true,
+                                         .words = "the normal stress",
+                                         .step = "MPa of normal stress"};
 inline constexpr Parameter seed{.id = "seed", .name = "Seed", .symbol = "seed", .in_ids = "seed", .key = "seed"};
 
 }  // namespace parameter

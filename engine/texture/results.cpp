@@ -8,7 +8,7 @@
 
 #include "engine/texture/genesis/axes.h"
 #include "engine/texture/genesis/packing.h"
-#include "engine/texture/loading/characteristics.h"
+#include "engine/texture/loading/outcome.h"
 #include "engine/texture/quantities.h"
 
 namespace dem::texture {
@@ -35,8 +35,8 @@ Table particle_table(const Specimen& specimen, const Settings& settings) {
   for (const Mineral& m : settings.minerals) minerals += (minerals.empty() ? "" : ",") + m.name;
   Table t{"particles",
           {{"minerals", minerals},
-           {"diameter", fmt::format("{}", settings.packing.vessel.diameter)},
-           {"height", fmt::format("{}", settings.packing.vessel.height)},
+           {"diameter", fmt::format("{}", body_of(settings).size[0])},
+           {"height", fmt::format("{}", body_of(settings).size[2])},
            {"aspect_ratio", fmt::format("{}", settings.shape.aspect_ratio)},
            {"growth_round", "0 masked by the ellipsoid of its grain, n claimed in round n of growth"}},
           {}};
@@ -148,7 +148,7 @@ Table crack_table(const Specimen& specimen, const Loading& loading, double last_
   return t;
 }
 
-Table history_table(const std::vector<HistoryRow>& h) {
+Table history_table(const Test& test, const std::vector<HistoryRow>& h) {
   Table t{"history", {}, {}};
   const auto column = [&](const char* name, const char* unit, auto get) {
     std::vector<double> values;
@@ -160,11 +160,13 @@ Table history_table(const std::vector<HistoryRow>& h) {
   column("platen_strain", "1", [&](std::size_t i) { return h[i].platen_strain; });
   column("axial_strain", "1", [&](std::size_t i) { return h[i].axial_strain; });
   column("lateral_strain", "1", [&](std::size_t i) { return h[i].lateral_strain; });
-  column("volumetric_strain", "1", [&](std::size_t i) { return h[i].volumetric_strain(); });
+  if (test.stretched) column("volumetric_strain", "1", [&](std::size_t i) { return h[i].volumetric_strain(); });
   column("axial_stress", "Pa", [&](std::size_t i) { return h[i].axial_stress; });
   column("stress_imbalance", "Pa", [&](std::size_t i) { return h[i].stress_imbalance; });
   column("confining_pressure", "Pa", [&](std::size_t i) { return h[i].confining_pressure; });
-  column("axial_stiffness", "Pa", [&](std::size_t i) { return axial_stiffness(h, i); });
+  if (test.loops.first > 0) column("phase", "1", [&](std::size_t i) { return h[i].phase; });
+  if (test.mouth > 0 || test.motion == Axis::x) column("opening", "m", [&](std::size_t i) { return h[i].opening; });
+  if (test.stretched) column("axial_stiffness", "Pa", [&](std::size_t i) { return axial_stiffness(h, i); });
   const char* classes[] = {"cracks_intra_tension", "cracks_intra_shear", "cracks_inter_tension", "cracks_inter_shear"};
   for (std::size_t k = 0; k < 4; ++k) column(classes[k], "1", [&](std::size_t i) { return h[i].cracks[k]; });
   column("work", "J", [&](std::size_t i) { return h[i].ledger.work; });
@@ -267,7 +269,7 @@ void add_specimen_results(Record& record, const Specimen& specimen, const Settin
 void add_fineness(Record& record, const Specimen& specimen, const Settings& settings) {
   constexpr double enough_across = 10, enough_in_grain = 10;
   const double particle = settings.packing.radius_min * (1 + settings.packing.radius_ratio);
-  const double across = settings.packing.vessel.diameter / particle;
+  const double across = body_of(settings).smallest() / particle;
   if (across < enough_across) {
     record.notes.push_back(
         fmt::format("Only {:.1f} particles lie across the specimen; {:.0f} or more leave an inside that the ends and "
@@ -285,7 +287,8 @@ void add_fineness(Record& record, const Specimen& specimen, const Settings& sett
 }
 
 // What is read off the curve up to its largest stress.
-void add_characteristics(Record& record, const std::vector<HistoryRow>& h, const Characteristics& c) {
+void add_characteristics(Record& record, const Test& test, const std::vector<HistoryRow>& h, const Characteristics& c) {
+  if (!test.stretched) return;
   if (c.young_modulus) {
     record.put(quantity::young_modulus, *c.young_modulus * giga);
   } else if (c.gauge_share < 0.5 || c.gauge_share > 2) {
@@ -315,8 +318,8 @@ void add_strength(Record& record, const Test& test, const Loading& loading, cons
   const std::vector<HistoryRow>& h = loading.history();
   const std::string_view limit = limit_reached(h, test.ending);
   if (loading.end()) {
-    record.put(test.strength, h[c.peak].axial_stress * mega);
-    record.put(quantity::peak_strain, h[c.peak].axial_strain);
+    if (!test.strength.id.empty()) record.put(test.strength, h[c.peak].axial_stress * mega);
+    if (test.stretched) record.put(quantity::peak_strain, h[c.peak].axial_strain);
     if (test.ending.follow > 0 && test.crack_stages && limit.empty()) {
       // Mean over the last twentieth of the strain.
       double sum = 0, count = 0;
@@ -345,7 +348,7 @@ void add_strength(Record& record, const Test& test, const Loading& loading, cons
 
 // Loading must be slow beside the waves that carry a change through the specimen.
 void add_rate_check(Record& record, const Settings& settings, const Characteristics& c) {
-  const double bias = rate_bias(c.kinetic_share, settings.test.rate_sensitivity);
+  const double bias = rate_bias(c.kinetic_share, settings.test.rate_sensitivity, settings.test.stretched);
   constexpr double usual = 0.03;
   if (bias > usual && bias <= settings.rate_bias) {
     record.notes.push_back(fmt::format(
@@ -395,17 +398,17 @@ void add_test(Record& record, const Specimen& specimen, const Settings& settings
   const std::size_t end = loading.end().value_or(h.size() - 1);
   // Below the noise there is nothing to divide by, and nothing to read off.
   const bool loaded = loading.end() || h[c.peak].axial_stress > least_peak;
-  if (loaded) add_characteristics(record, h, c);
+  if (loaded) add_characteristics(record, test, h, c);
   add_strength(record, test, loading, c);
+  if (test.read_off) test.read_off(test, {specimen, settings, loading, c, end}, record);
   add_fineness(record, specimen, settings);
   add_specimen_results(record, specimen, settings);
   for (std::size_t k = 0; k < 4; ++k) record.put(quantity::cracks[k], h[end].cracks[k]);
   for (std::size_t k = 0; k < 4; ++k) record.put(quantity::cracks_at_peak[k], h[c.peak].cracks[k]);
 
   // A specimen that never bore a load has no work to divide by either: then that of the noise.
-  const Cylinder& vessel = settings.packing.vessel;
   const double least_work =
-      loaded ? 0 : 0.5 * least_peak * least_peak / settings.minerals.front().modulus * volume(vessel);
+      loaded ? 0 : 0.5 * least_peak * least_peak / settings.minerals.front().modulus * body_of(settings).volume();
   double peak_work = 0, residual = 0, squares = 0, largest = 0;
   for (const HistoryRow& r : h) {
     peak_work = std::max(peak_work, r.ledger.work);
@@ -458,7 +461,7 @@ void add_test(Record& record, const Specimen& specimen, const Settings& settings
 
   add_specimen_tables(record, specimen, settings);
   record.tables.push_back(crack_table(specimen, loading, h[end].step));
-  record.tables.push_back(history_table(h));
+  record.tables.push_back(history_table(test, h));
   add_snapshots(record, loading, c, end);
 }
 

@@ -41,6 +41,13 @@ FigureContent test_setups(const StudyResult& study);
 FigureContent input_parameters(const StudyResult& study);
 FigureContent texture_by_seed(const StudyResult& study);
 FigureContent open_readings(const StudyResult& study);
+FigureContent brazilian_test(const StudyResult& study);
+FigureContent brazilian_strengths(const StudyResult& study);
+FigureContent brazilian_cracks(const StudyResult& study);
+FigureContent half_disc_test(const StudyResult& study);
+FigureContent direct_shear_test(const StudyResult& study);
+FigureContent direct_shear_envelope(const StudyResult& study);
+FigureContent unloading_loops_test(const StudyResult& study);
 
 }  // namespace reports::texture
 

@@ -28,9 +28,16 @@ double axial_stiffness(const std::vector<HistoryRow>& h, std::size_t row) {
                         : std::numeric_limits<double>::quiet_NaN();
 }
 
-double rate_bias(double kinetic_share, double sensitivity) {
-  constexpr double of_modulus = 30;  // falls with the energy, strengths with the speed
-  return std::max(sensitivity * std::sqrt(kinetic_share), of_modulus * kinetic_share);
+double rate_bias(double kinetic_share, double sensitivity, bool of_modulus) {
+  constexpr double modulus = 30;  // falls with the energy, strengths with the speed
+  return std::max(sensitivity * std::sqrt(kinetic_share), of_modulus ? modulus * kinetic_share : 0);
+}
+
+std::optional<double> secant_poisson_ratio(const std::vector<HistoryRow>& h, std::size_t peak) {
+  if (h.empty()) return {};
+  const std::size_t half = first_above(h, peak, 0.5 * h[peak].axial_stress);
+  if (half == 0 || h[half].axial_strain <= 0) return {};
+  return -h[half].lateral_strain / h[half].axial_strain;
 }
 
 Characteristics characterise(const std::vector<HistoryRow>& h, double departure, bool crack_stages,

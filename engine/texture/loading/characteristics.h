@@ -31,7 +31,10 @@ Characteristics characterise(const std::vector<HistoryRow>& history, double depa
 
 /// Share by which a test is loaded too fast: about so much are its strength too large and its modulus too small.
 /// `sensitivity` is that of the strength (Test::rate_sensitivity). Calibrated in docs/notes/loading-rate.md.
-double rate_bias(double kinetic_share, double sensitivity);
+double rate_bias(double kinetic_share, double sensitivity, bool of_modulus = true);
+
+/// Lateral over axial strain where the stress first reaches half of that at `peak`; none before it has one.
+std::optional<double> secant_poisson_ratio(const std::vector<HistoryRow>& history, std::size_t peak);
 
 /// Axial stiffness of Eq. 9: (sigma - sigma_0) / (epsilon - epsilon_0), from the first row; NaN below a strain of 5e-5.
 double axial_stiffness(const std::vector<HistoryRow>& history, std::size_t row);

@@ -123,7 +123,9 @@ Scenario resolve(const Scenario& scenario) {
 
 }  // namespace
 
-TestEntry compression_entry() { return {name, &keys, &read, true, &resolve}; }
+TestEntry compression_entry() {
+  return {name, &keys, &read, Sweep{"confining_pressure", parameter::confining_pressure}, &resolve};
+}
 
 Test compression(double confining_pressure) {
   const bool confined = confining_pressure > 0;

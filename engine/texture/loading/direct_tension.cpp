@@ -60,6 +60,12 @@ std::vector<Key> keys() {
   };
 }
 
+// A disc at each end.
+std::int8_t at_ends(const Test& test, const Body& body, const Vec3& at) {
+  const double height = body.size[2], thickness = test.grip * height;
+  return at[2] < thickness ? std::int8_t{1} : at[2] > height - thickness ? std::int8_t{2} : std::int8_t{0};
+}
+
 Test read(const Scenario& scenario) {
   Test test = direct_tension();
   read_pace(scenario, "direct_tension.", test);
@@ -79,6 +85,7 @@ Test direct_tension() {
       .words = "direct tension",
       .hold = Hold::grips,
       .grip = 0.05,
+      .gripped = at_ends,
       .sense = 1,
       .rate = 1e-8,
       .ramp_strain = 2e-6,

@@ -9,7 +9,7 @@ constexpr double least_strain = 1e-3;  // no test ends on the strain of a first,
 
 // The rules. `peak` is the row of the largest stress so far.
 bool ends(const HistoryRow& row, const HistoryRow& peak, const Ending& ending) {
-  if (peak.axial_stress <= least_peak) return false;
+  if (peak.axial_stress <= least_peak || row.phase != 0) return false;
   const bool fell = row.axial_stress < ending.stop * peak.axial_stress;
   const bool far = ending.strain_limit > 0 && row.platen_strain > ending.strain_limit * peak.platen_strain &&
                    row.platen_strain > least_strain;

@@ -1,6 +1,8 @@
 #pragma once
 // The strain gauge: strains of the rock itself, away from the ends where it is held.
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "engine/texture/solver/input.h"
@@ -8,17 +10,14 @@
 
 namespace dem::texture {
 
-/// Strains by least squares over the particles of the gauge: slopes of u_z over z, and of u_x, u_y over x, y.
+/// Strains by least squares over the particles of the gauge: slopes of u_x, u_y, u_z over x, y, z.
 class StrainGauge {
  public:
-  /// Particles whose distance from mid-height is at most half of `length` (m).
-  StrainGauge(const std::vector<Vec3>& position, double height, double length);
+  StrainGauge(const std::vector<Vec3>& position, const std::function<bool(const Vec3&)>& inside);
   /// Counts from these positions from now on.
   void restart(const std::vector<Vec3>& position) { start_ = position; }
-  struct Strains {
-    double axial = 0, lateral = 0;  ///< tension positive
-  };
-  [[nodiscard]] Strains read(const std::vector<Row8>& poses) const;
+  /// Along x, y, z; tension positive.
+  [[nodiscard]] std::array<double, 3> read(const std::vector<Row8>& poses) const;
 
   template <class Archive>
   void archive(Archive& a) {
@@ -28,6 +27,21 @@ class StrainGauge {
  private:
   std::vector<Vec3> start_;
   std::vector<std::int32_t> inside_;
+};
+
+/// How far the two sides of the plane x = 0 have moved apart near the lower face, in the mean over particles of either side.
+class MouthGauge {
+ public:
+  /// Particles up to `reach` (m) from the plane and above z = 0; 0: there is no gauge.
+  MouthGauge(const std::vector<Vec3>& position, double reach);
+  [[nodiscard]] double read(const std::vector<Row8>& poses) const;  ///< m
+
+ private:
+  struct Side {
+    std::vector<std::int32_t> particles;
+    double start = 0;  ///< mean x, m
+  };
+  std::array<Side, 2> sides_;  ///< x < 0, x >= 0
 };
 
 }  // namespace dem::texture

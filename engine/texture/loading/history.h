@@ -15,9 +15,11 @@ namespace dem::texture {
 struct HistoryRow {
   double step = 0, time = 0;
   double platen_strain = 0, axial_strain = 0, lateral_strain = 0;
-  double axial_stress = 0;         ///< mean of both ends over the area at the beginning of the test proper
-  double stress_imbalance = 0;     ///< difference of both ends
-  double confining_pressure = 0;   ///< of the jacket on the specimen
+  double axial_stress = 0;        ///< mean of both ends over the area at the beginning of the test proper
+  double stress_imbalance = 0;    ///< difference of both ends
+  double confining_pressure = 0;  ///< of the jacket on the specimen; in direct shear the normal stress
+  double opening = 0;  ///< m, of the mouth of a notch (Test::mouth); in direct shear the rise of the upper half
+  double phase = 0;    ///< of loops (Test::loops): 1 on the way down, 2 back up to where it was turned, else 0
   std::array<double, 4> cracks{};  ///< intra tension, intra shear, inter tension, inter shear
   Ledger ledger;
   [[nodiscard]] double volumetric_strain() const { return axial_strain + 2 * lateral_strain; }

@@ -19,11 +19,12 @@ void check(bool sound, const std::string& where) {
 
 Loading::Loading(const Specimen& specimen, const Settings& settings, int threads)
     : test_(settings.test),
-      gauge_(specimen.packing.position, settings.packing.vessel.height,
-             settings.gauge * settings.packing.vessel.height),
+      gauge_(specimen.packing.position,
+             [&, body = body_of(settings)](const Vec3& at) { return test_.in_gauge(body, settings.gauge, at); }),
+      mouth_(test_.mouth > 0 ? specimen.packing.position : std::vector<Vec3>(), test_.mouth),
       start_(specimen.packing.position),
       assembly_(assembly_input(specimen, settings), threads),
-      section_(test_.section(settings.packing.vessel)) {
+      section_(test_.section(body_of(settings))) {
   if (test_.before) {
     stage_steps_ = test_.before->begin(test_, assembly_);
   } else {
@@ -33,8 +34,26 @@ Loading::Loading(const Specimen& specimen, const Settings& settings, int threads
 
 // The ends start to move.
 void Loading::begin() {
+  drive(test_.sense);
+  loop_.next = test_.loops.first;
+}
+
+void Loading::drive(double sense) {
   const double speed = 0.5 * test_.rate * section_.length / assembly_.time_step();
-  assembly_.drive(-test_.sense * speed, test_.sense * speed, static_cast<std::int64_t>(test_.ramp_strain / test_.rate));
+  assembly_.drive(-sense * speed, sense * speed, static_cast<std::int64_t>(test_.ramp_strain / test_.rate));
+}
+
+// The phase of a sample, and whether the ends turn after it.
+void Loading::go_round(HistoryRow& row) {
+  if (loop_.phase == 2 && row.platen_strain >= loop_.strain) loop_.phase = 0;
+  row.phase = loop_.phase;
+  if (loop_.phase == 0 && row.platen_strain >= loop_.next && row.axial_stress > least_peak) {
+    loop_ = {1, row.platen_strain, row.axial_stress, row.platen_strain + test_.loops.every};
+    drive(-test_.sense);
+  } else if (loop_.phase == 1 && row.axial_stress <= test_.loops.low * loop_.stress) {
+    loop_.phase = 2;
+    drive(test_.sense);
+  }
 }
 
 double Loading::fraction() const {
@@ -60,9 +79,10 @@ bool Loading::advance() {
     return true;
   }
   const auto steps = std::max<std::int64_t>(1, std::llround(test_.sample_strain / test_.rate));
-  const HistoryRow row = row_of(assembly_.advance(history_.empty() ? 1 : steps));
+  HistoryRow row = row_of(assembly_.advance(history_.empty() ? 1 : steps));
   check(std::isfinite(row.axial_stress) && std::isfinite(row.ledger.kinetic), fmt::format("at step {:.0f}", row.step));
   if (history_.size() % frame_rows == 0) frames_.push_back(frame());
+  if (test_.loops.first > 0) go_round(row);
   history_.push_back(row);
   ended_ = is_over(history_, test_.ending);
   return !ended_;
@@ -74,7 +94,8 @@ void Loading::go_through_stage() {
   check(std::isfinite(sample.ledger.kinetic), fmt::format("under the {}", test_.before->words));
   stage_steps_ -= chunk;
   if (stage_steps_ > 0) return;
-  section_ = test_.before->end(sample);
+  if (test_.before->end) section_ = test_.before->end(sample);
+  rise_ = sample.rise;
   for (std::size_t i = 0; i < start_.size(); ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis) start_[i][axis] = assembly_.poses()[i].v[axis];
   }
@@ -84,18 +105,20 @@ void Loading::go_through_stage() {
 
 HistoryRow Loading::row_of(const Sample& sample) {
   const double sense = test_.sense;
-  const StrainGauge::Strains strains = gauge_.read(assembly_.poses());
+  const auto [x, y, z] = gauge_.read(assembly_.poses());
   HistoryRow row;
   row.step = sample.step;
   row.time = sample.time;
   row.platen_strain = sense * ((sample.place[1] - sample.place[0]) / section_.length - 1);
-  row.axial_strain = sense * strains.axial;
-  row.lateral_strain = sense * strains.lateral;
+  row.axial_strain = test_.gauge == Gauge::along ? sense * z : x;
+  row.lateral_strain = test_.gauge == Gauge::along ? sense * (0.5 * (x + y)) : z;
   // Both are positive in the sense of the test.
   const double lower = -sense * sample.force[0], upper = sense * sample.force[1];
   row.axial_stress = 0.5 * (lower + upper) / section_.area;
   row.stress_imbalance = (upper - lower) / section_.area;
   row.confining_pressure = sample.confining_pressure;
+  row.opening = test_.motion == Axis::x ? sample.rise - rise_ : mouth_.read(assembly_.poses());
+  if (test_.motion == Axis::x) row.confining_pressure = sample.normal_force / section_.area;
   const std::vector<Crack>& cracks = assembly_.cracks();
   for (; counted_ < static_cast<std::int64_t>(cracks.size()); ++counted_) {
     const Crack& c = cracks[static_cast<std::size_t>(counted_)];

@@ -33,12 +33,14 @@ class Loading {
 
   template <class Archive>
   void archive(Archive& a) {
-    a(assembly_, gauge_, start_, history_, frames_, counted_, crack_counts_, stage_steps_, section_, ended_);
+    a(assembly_, gauge_, start_, history_, frames_, counted_, crack_counts_, stage_steps_, section_, loop_, rise_,
+      ended_);
   }
 
  private:
   Test test_;
   StrainGauge gauge_;
+  MouthGauge mouth_;
   std::vector<Vec3> start_;  ///< places when the test proper begins, m
   Assembly assembly_;
   std::vector<HistoryRow> history_;
@@ -47,9 +49,17 @@ class Loading {
   std::array<double, 4> crack_counts_{};
   std::int64_t stage_steps_ = 0;  ///< that are left of the stage before
   Section section_;               ///< when the test proper begins
+  /// Of loops: the phase of the last sample (HistoryRow::phase), where it was turned down, and where the next one will be.
+  struct Loop {
+    double phase = 0, strain = 0, stress = 0, next = 0;
+  };
+  Loop loop_;
+  double rise_ = 0;  ///< m, of an upper grip that slides, when the test proper begins
   bool ended_ = false;
 
   void begin();
+  void drive(double sense);
+  void go_round(HistoryRow& row);
   void go_through_stage();
   [[nodiscard]] HistoryRow row_of(const Sample& sample);
   [[nodiscard]] Frame frame() const;

@@ -41,6 +41,26 @@ std::vector<MineralGrains> grains_of(const Settings& settings) {
   return minerals;
 }
 
+// Seeds of which nothing is left in the body.
+void drop_empty_grains(Specimen& specimen) {
+  GrainSeeds& seeds = specimen.seeds;
+  std::vector<std::int32_t> place(seeds.radius.size(), -1);
+  for (const std::int32_t grain : specimen.grains.grain) place[static_cast<std::size_t>(grain)] = 0;
+  std::size_t kept = 0;
+  for (std::size_t g = 0; g < place.size(); ++g) {
+    if (place[g] < 0) continue;
+    place[g] = static_cast<std::int32_t>(kept);
+    seeds.position[kept] = seeds.position[g];
+    seeds.radius[kept] = seeds.radius[g];
+    seeds.mineral[kept] = seeds.mineral[g];
+    ++kept;
+  }
+  seeds.position.resize(kept);
+  seeds.radius.resize(kept);
+  seeds.mineral.resize(kept);
+  for (std::int32_t& grain : specimen.grains.grain) grain = place[static_cast<std::size_t>(grain)];
+}
+
 }  // namespace
 
 std::vector<std::string> specimen_files(const Settings& settings) {
@@ -51,8 +71,15 @@ void keep_specimen(const Settings& settings, RunContext& context) {
   (void)genesis(settings.packing, grains_of(settings), settings.seed_scale, context);
 }
 
+Body body_of(const Settings& settings) {
+  const Cylinder& vessel = settings.packing.vessel;
+  return settings.test.body.value_or(Body{.size = {vessel.diameter, vessel.diameter, vessel.height}});
+}
+
 Specimen make_specimen(const Settings& settings, RunContext& context) {
   Genesis made = genesis(settings.packing, grains_of(settings), settings.seed_scale, context);
+  const Body body = body_of(settings);
+  if (body.shape != Body::Shape::cylinder) cut_out(body, settings.packing.vessel, made);
   const std::vector<std::int32_t> order = order_in_slabs(made.packing.position, made.packing.radius);
   Specimen specimen;
   specimen.seeds = std::move(made.seeds);
@@ -71,6 +98,11 @@ Specimen make_specimen(const Settings& settings, RunContext& context) {
   }
   std::sort(specimen.packing.contacts.begin(), specimen.packing.contacts.end());
   specimen.grains = grow_grains(specimen.packing, specimen.seeds, settings.shape, settings.growth);
+  if (body.shape != Body::Shape::cylinder) drop_empty_grains(specimen);
+  std::erase_if(specimen.packing.contacts, [&](const auto& pair) {
+    const auto at = [&](std::int32_t i) { return specimen.packing.position[static_cast<std::size_t>(i)]; };
+    return body.notched(at(pair[0]), at(pair[1]));
+  });
   specimen.bonds = group_contacts(specimen.packing, specimen.grains, settings);
   return specimen;
 }
@@ -93,19 +125,16 @@ AssemblyInput assembly_input(const Specimen& specimen, const Settings& settings)
   }
   input.damping = settings.damping;
   input.time_step_factor = settings.time_step_factor;
-  const double height = settings.packing.vessel.height;
+  const Body body = body_of(settings);
   input.z_low = 0;
-  input.z_high = height;
+  input.z_high = body.size[settings.test.motion == Axis::x ? 0 : 2];
+  input.slides = settings.test.motion == Axis::x;
   const Test& test = settings.test;
   if (test.confining_pressure > 0) input.jacket_radius = settings.packing.vessel.diameter / 2;
   input.platens = test.hold == Hold::platens;
+  input.faces = test.faces;
   if (test.hold == Hold::grips) {
-    const double thickness = test.grip * height;
-    for (const Vec3& p : input.position) {
-      input.grip.push_back(p[2] < thickness            ? std::int8_t{1}
-                           : p[2] > height - thickness ? std::int8_t{2}
-                                                       : std::int8_t{0});
-    }
+    for (const Vec3& p : input.position) input.grip.push_back(test.gripped(test, body, p));
   }
   return input;
 }

@@ -29,6 +29,9 @@ struct Settings {
   double stiffness_departure = 0.02;  ///< of the axial stiffness at crack initiation
 };
 
+/// The body of the test: that which it cuts, or the cylinder as packed.
+Body body_of(const Settings& settings);
+
 /// A specimen in the order of the solver.
 struct Specimen {
   Packing packing;

@@ -38,10 +38,12 @@ struct Ledger {
 /// What a sample tells about the assembly at one instant.
 struct Sample {
   double step = 0, time = 0;      ///< -, s
-  std::array<double, 2> force{};  ///< z-force of the lower and upper platen (or grip) on the specimen, N
-  std::array<double, 2> place{};  ///< z of the two, m
+  std::array<double, 2> force{};  ///< of the lower and upper platen (or grip) on the specimen, along their motion, N
+  std::array<double, 2> place{};  ///< of the two, along their motion, m
   double jacket_radius = 0;       ///< m
   double confining_pressure = 0;  ///< of the jacket on the specimen: its force over its area, Pa
+  double normal_force = 0;        ///< of an upper grip that is free along z on the specimen, N, downwards
+  double rise = 0;                ///< of that grip since installation, m
   Ledger ledger;
 };
 

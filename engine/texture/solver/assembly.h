@@ -28,6 +28,7 @@ class Assembly {
   /// See Walls.
   void drive(double lower, double upper, std::int64_t ramp) { walls_.drive(lower, upper, ramp); }
   void confine(double pressure, std::int64_t ramp) { walls_.confine(pressure, ramp); }
+  void press(double force, std::int64_t ramp) { walls_.press(force, ramp); }
   /// Advances by `steps` steps and samples at the last of them.
   Sample advance(std::int64_t steps);
 

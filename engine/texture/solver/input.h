@@ -18,6 +18,13 @@ struct BondSpec {
   ContactGroup group;
 };
 
+/// One face of a rigid end that bears on the specimen: a plane, or a cylinder with its axis along y. The place of the end
+/// is that of the plane, or of the line where the cylinder is highest (of the lower end) or lowest (of the upper).
+struct Face {
+  double x = 0;       ///< m, of that line
+  double radius = 0;  ///< m; 0: a plane; > 0: a roller; < 0: a hollow jaw
+};
+
 struct AssemblyInput {
   std::vector<Vec3> position;         ///< m, ordered in slabs along z (order_in_slabs)
   std::vector<double> radius;         ///< m
@@ -26,9 +33,11 @@ struct AssemblyInput {
   std::vector<BondSpec> bonds;
   std::vector<std::vector<ContactGroup>> fresh;  ///< [mineral][mineral]: linear parts of contacts that form later
   std::vector<double> wall_modulus;              ///< E_c of each mineral, Pa, for contacts with walls
-  std::vector<std::int8_t> grip;                 ///< 0 free, 1 held by the lower grip, 2 by the upper; empty: none
-  bool platens = false;                          ///< frictionless rigid planes at z_low and z_high
-  double z_low = 0, z_high = 0;                  ///< m; lower and upper platen (or grip face)
+  bool slides = false;  ///< the grips move along x, the upper is free along z; z_low and z_high are then places along x
+  std::vector<std::int8_t> grip;           ///< 0 free, 1 held by the lower grip, 2 by the upper; empty: none
+  bool platens = false;                    ///< frictionless rigid ends at z_low and z_high
+  std::array<std::vector<Face>, 2> faces;  ///< of the lower and the upper one; empty: a plane each
+  double z_low = 0, z_high = 0;            ///< m; lower and upper platen (or grip face)
   double jacket_radius = 0;       ///< m; frictionless cylindrical wall round the z axis, for confine(); 0: none
   double damping = 0.7;           ///< alpha
   double time_step_factor = 0.8;  ///< of the critical step from the stiffness sums

@@ -28,17 +28,25 @@ double newton(double excess, double bearing, double all) { return excess / std::
 
 Walls::Walls(const AssemblyInput& input, const Slabs& slabs)
     : platens_(input.platens),
+      slides_(input.slides),
+      damping_(input.damping),
+      faces_(input.faces),
       modulus_(input.wall_modulus),
       platen_contacts_(slabs.count()),
       jacket_contacts_(slabs.count()),
       sums_(slabs.count()) {
+  for (std::vector<Face>& faces : faces_) {
+    if (faces.empty()) faces.emplace_back();
+  }
   ends_[0].z = ends_[0].z_before = input.z_low;
   ends_[1].z = ends_[1].z_before = input.z_high;
   jacket_.radius = jacket_.radius_before = input.jacket_radius;
   if (!input.grip.empty()) {
     held_.resize(slabs.count());
     for (std::size_t i = 0; i < input.grip.size(); ++i) {
-      if (input.grip[i] > 0) held_[slabs.of_particle(i)].push_back({static_cast<std::int32_t>(i), input.grip[i] - 1});
+      if (input.grip[i] <= 0) continue;
+      held_[slabs.of_particle(i)].push_back({static_cast<std::int32_t>(i), input.grip[i] - 1});
+      if (input.grip[i] == 2) lift_.mass += input.density[i] * 4 / 3 * pi * std::pow(input.radius[i], 3);
     }
   }
   for (std::size_t i = 0; any() && i < input.position.size(); ++i) {
@@ -62,10 +70,22 @@ void Walls::confine(double pressure, std::int64_t ramp) {
   for (End& end : ends_) end.servo = 1;
 }
 
+void Walls::press(double force, std::int64_t ramp) {
+  lift_.target = force;
+  lift_.gain = gain_over(lift_.force, force, ramp);
+}
+
 void Walls::press(std::size_t slab, Particles& particles) {
   if (!platens_) return;
   press_platens(slab, particles);
   press_jacket(slab, particles);
+}
+
+// Of the face of an end, before the gap at rest.
+RoundGap Walls::gap_of(std::int32_t upper, const Face& face, const Vec3& at, double radius) const {
+  const double z = ends_[static_cast<std::size_t>(upper)].z, side = upper != 0 ? -1 : 1;
+  if (face.radius == 0) return {platen_gap(z, upper != 0, at[2], radius), 0, side};
+  return round_gap(face.radius, at[0] - face.x, at[2] - (z - side * face.radius), radius);
 }
 
 void Walls::press_platens(std::size_t slab, Particles& particles) {
@@ -78,10 +98,13 @@ void Walls::press_platens(std::size_t slab, Particles& particles) {
     const auto p = static_cast<std::size_t>(contact.particle);
     const auto w = static_cast<std::size_t>(contact.upper);
     const Row8& pose = particles.pose[p];
-    const WallResult result = advance(contact.law, platen_gap(ends_[w].z, contact.upper != 0, pose.v[2], pose.v[3]));
+    const Face& face = faces_[w][static_cast<std::size_t>(contact.face)];
+    const RoundGap at = gap_of(contact.upper, face, {pose.v[0], pose.v[1], pose.v[2]}, pose.v[3]);
+    const WallResult result = advance(contact.law, at.gap);
     if (result.stiffness == 0) continue;
-    const double f = contact.upper ? -result.push : result.push;  // on the particle, along z
+    const double f = at.z * result.push;  // on the particle, along z
     particles.force[p].v[2] += f;
+    if (face.radius != 0) particles.force[p].v[0] += at.x * result.push;
     sums.force[w] += f;
     sums.stiffness[w] += result.stiffness;
     elastic += result.energy;
@@ -138,6 +161,16 @@ void Walls::move(double step) {
     approach(end.speed, end.target, end.gain);
     end.z += end.speed * step;
   }
+  if (slides_) {
+    double up = 0;  // of the specimen on the grip
+    for (const SlabSums& sums : sums_) up -= sums.lift;
+    approach(lift_.force, lift_.target, lift_.gain);
+    const double free = up - lift_.force, drag = damping_ * std::abs(free);
+    lift_.drift_before = lift_.z - lift_.z_before;
+    lift_.z_before = lift_.z;
+    lift_.speed += step * (free - (lift_.speed > 0 ? drag : lift_.speed < 0 ? -drag : 0)) / lift_.mass;
+    lift_.z += lift_.speed * step;
+  }
   jacket_.radius_before = radius;
   if (radius > 0) {
     // What the particles alone did to the force in the last step, they will do again in the next.
@@ -154,19 +187,24 @@ double Walls::hold(std::size_t slab, Particles& particles) {
   SlabSums& sums = sums_[slab];
   sums.force_before = sums.force;
   sums.force = {};
+  sums.lift_before = sums.lift;
+  sums.lift = 0;
   double kinetic = 0;
   for (const Held& held : held_[slab]) {
     const auto i = static_cast<std::size_t>(held.particle);
     const auto w = static_cast<std::size_t>(held.upper);
     const double speed = ends_[w].speed;
-    sums.force[w] -= particles.force[i].v[2];
+    const double rise = slides_ && w == 1 ? lift_.speed : 0;
+    sums.force[w] -= particles.force[i].v[slides_ ? 0 : 2];
+    if (w == 1) sums.lift -= particles.force[i].v[2];
     particles.force[i] = Row8{};
-    particles.velocity[i] = Row8{{0, 0, speed, 0, 0, 0, 0, 0}};
-    kinetic += particles.inertia[i].mass * speed * speed;
+    particles.velocity[i] = slides_ ? Row8{{speed, 0, rise, 0, 0, 0, 0, 0}} : Row8{{0, 0, speed, 0, 0, 0, 0, 0}};
+    kinetic += particles.inertia[i].mass * speed * speed + particles.inertia[i].mass * rise * rise;
   }
   for (std::size_t w = 0; w < 2; ++w) {
     sums.work += 0.5 * (sums.force[w] + sums.force_before[w]) * ends_[w].drift_before;
   }
+  if (slides_) sums.work += 0.5 * (sums.lift + sums.lift_before) * lift_.drift_before;
   return kinetic;
 }
 
@@ -183,15 +221,20 @@ void Walls::meet(const Near& sphere, double reach, bool first) {
     return !first && std::any_of(contacts.begin(), contacts.end(), same);
   };
   const double k = wall_stiffness(modulus_[sphere.mineral], sphere.radius);
-  for (std::int32_t upper = 0; platens_ && upper < 2; ++upper) {
-    End& end = ends_[static_cast<std::size_t>(upper)];
-    std::vector<PlatenContact>& contacts = platen_contacts_[sphere.slab];
-    const auto particle = static_cast<std::int32_t>(sphere.particle);
-    const auto same = [&](const PlatenContact& c) { return c.particle == particle && c.upper == upper; };
-    const double gap = platen_gap(end.z, upper != 0, sphere.x[2], sphere.radius);
-    if (gap > reach || is_known(contacts, same)) continue;
-    contacts.push_back({particle, upper, {first ? gap : 0, k}});
-    if (first) end.stiffness += k;
+  for (std::int16_t upper = 0; platens_ && upper < 2; ++upper) {
+    const std::vector<Face>& faces = faces_[static_cast<std::size_t>(upper)];
+    for (std::int16_t f = 0; f < static_cast<std::int16_t>(faces.size()); ++f) {
+      const Face& face = faces[static_cast<std::size_t>(f)];
+      std::vector<PlatenContact>& contacts = platen_contacts_[sphere.slab];
+      const auto particle = static_cast<std::int32_t>(sphere.particle);
+      const auto same = [&](const PlatenContact& c) {
+        return c.particle == particle && c.upper == upper && c.face == f;
+      };
+      const double gap = gap_of(upper, face, sphere.x, sphere.radius).gap;
+      if (gap > reach || is_known(contacts, same)) continue;
+      contacts.push_back({particle, upper, f, {first ? gap : 0, k}});
+      if (first) ends_[static_cast<std::size_t>(upper)].stiffness += k;
+    }
   }
   if (jacket_.radius > 0) {
     std::vector<JacketContact>& contacts = jacket_contacts_[sphere.slab];
@@ -207,7 +250,10 @@ void Walls::meet(const Near& sphere, double reach, bool first) {
 void Walls::add_stiffness(std::vector<std::array<double, 6>>& diagonal) const {
   for (const auto& slab : platen_contacts_) {
     for (const PlatenContact& contact : slab) {
-      diagonal[static_cast<std::size_t>(contact.particle)][2] += contact.law.stiffness;
+      const std::size_t w = contact.upper != 0 ? 1 : 0;
+      std::array<double, 6>& of = diagonal[static_cast<std::size_t>(contact.particle)];
+      of[2] += contact.law.stiffness;
+      if (faces_[w][static_cast<std::size_t>(contact.face)].radius != 0) of[0] += contact.law.stiffness;
     }
   }
   for (const auto& slab : jacket_contacts_) {
@@ -222,9 +268,11 @@ void Walls::add_stiffness(std::vector<std::array<double, 6>>& diagonal) const {
 void Walls::report(Sample& sample) const {
   for (std::size_t w = 0; w < 2; ++w) sample.place[w] = ends_[w].z_before;
   sample.jacket_radius = jacket_.radius_before;
+  sample.rise = lift_.z_before;
   double jacket_force = 0;
   for (const SlabSums& sums : sums_) {
     jacket_force += sums.jacket_force;
+    if (slides_) sample.normal_force -= sums.lift;
     for (std::size_t w = 0; w < 2; ++w) sample.force[w] += sums.force[w];
     sample.ledger.work += sums.work;
     sample.ledger.elastic += sums.elastic;

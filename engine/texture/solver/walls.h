@@ -1,10 +1,12 @@
 #pragma once
 // What holds a specimen from outside: platens or grips at its ends, a jacket round its sides.
 //
-// Platens are frictionless planes, the jacket a frictionless cylinder round the z axis (laws/wall_contact.h). Walls
+// Platens are rigid and without friction, each a plane or some rollers or a hollow jaw (Face); the jacket is a frictionless
+// cylinder round the z axis (laws/wall_contact.h). Walls
 // that carry a pressure have no mass: at each step each of them goes to where its contacts carry the pressure, by one
 // Newton step from the forces of the step before; the jacket foresees that particles go on pushing as they did.
-// Particles in a grip follow it without turning.
+// Particles in a grip follow it without turning. Grips move along z, or along x (AssemblyInput::slides): then the upper is a
+// rigid body, with the mass of its particles and their local damping, that a normal force presses down.
 //
 // The work of a wall is the mean of its force before and after a drift, times the drift.
 #include <array>
@@ -28,6 +30,9 @@ class Walls {
   /// now.
   void confine(double pressure, std::int64_t ramp);
 
+  /// Normal force (N) that presses an upper grip down which slides, reached linearly over `ramp` steps from now.
+  void press(double force, std::int64_t ramp);
+
   // A step, slab by slab but for move(). Of one slab: by one thread at a time.
   /// Adds what platens and jacket do to the particles of a slab.
   void press(std::size_t slab, Particles& particles);
@@ -48,7 +53,7 @@ class Walls {
 
   template <class Archive>
   void archive(Archive& a) {
-    a(ends_, jacket_, platen_contacts_, jacket_contacts_, sums_);
+    a(ends_, jacket_, lift_, platen_contacts_, jacket_contacts_, sums_);
   }
 
  private:
@@ -66,9 +71,15 @@ class Walls {
     double stiffness = 0;                       ///< of all its first contacts, N/m
     double force_before = 0, drift = 0;         ///< N, m: of the step before
   };
+  /// The motion along z of an upper grip that slides.
+  struct Lift {
+    double mass = 0;                         ///< kg, of its particles
+    double force = 0, target = 0, gain = 0;  ///< N, N, N a step: presses it down
+    double z = 0, z_before = 0, drift_before = 0, speed = 0;
+  };
   struct PlatenContact {
     std::int32_t particle = 0;
-    std::int32_t upper = 0;
+    std::int16_t upper = 0, face = 0;
     WallContact law;
   };
   struct JacketContact {
@@ -83,6 +94,7 @@ class Walls {
   struct SlabSums {
     std::array<double, 2> force{}, force_before{};  ///< of the platens or grips on the specimen, along z, N
     std::array<double, 2> stiffness{};              ///< of the platen contacts that bear, N/m
+    double lift = 0, lift_before = 0;               ///< force of an upper grip that slides on the specimen, along z, N
     double jacket_force = 0, jacket_force_before = 0, jacket_stiffness = 0;  ///< sums over radial forces
     double work = 0, elastic = 0;                                            ///< J; work since the beginning
   };
@@ -98,17 +110,21 @@ class Walls {
   /// installation, start free of stress.
   void meet(const Near& sphere, double reach, bool first);
   [[nodiscard]] bool any() const { return platens_ || jacket_.radius > 0; }
+  [[nodiscard]] RoundGap gap_of(std::int32_t upper, const Face& face, const Vec3& at, double radius) const;
   void press_platens(std::size_t slab, Particles& particles);
   void press_jacket(std::size_t slab, Particles& particles);
 
   // fixed after installation
-  bool platens_ = false;
+  bool platens_ = false, slides_ = false;
+  double damping_ = 0;
+  std::array<std::vector<Face>, 2> faces_{};
   std::vector<double> modulus_;          ///< E_c of each mineral, Pa
   std::vector<std::vector<Held>> held_;  ///< by slab; empty without grips
 
   // state
   std::array<End, 2> ends_{};
   Jacket jacket_;
+  Lift lift_;
   std::vector<std::vector<PlatenContact>> platen_contacts_;  ///< by slab
   std::vector<std::vector<JacketContact>> jacket_contacts_;  ///< by slab
   std::vector<SlabSums> sums_;

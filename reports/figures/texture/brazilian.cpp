@@ -1,0 +1,253 @@
+// The Brazilian test: how the disc is loaded and what it bears, its strength beside that of direct tension, and where it
+// cracks first.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "engine/analysis/fits.h"
+#include "reports/figures/table.h"
+#include "reports/figures/texture/parts.h"
+#include "reports/text.h"
+
+namespace reports::texture {
+namespace {
+
+constexpr render::Colour steel{0.35, 0.38, 0.42};
+constexpr int curves_height = 320, picture_width = 700;
+
+// Direct over Brazilian tensile strength (Perras & Diederichs 2014): igneous rock, and the range over kinds of rock.
+constexpr double igneous = 0.8, lowest = 0.7, highest = 0.9;
+
+std::vector<SeriesCase> discs(const StudyResult& study) {
+  std::vector<SeriesCase> cases = series_of(of_mineral(study, ""), test_brazilian, parameter::jaw_ratio);
+  for (SeriesCase& item : cases) {
+    item.label = item.value > 0 ? "jaws of " + shortest(item.value) + " R" : "flat platens";
+  }
+  return cases;
+}
+
+// The platens or jaws as lines in the plane of the section.
+void add_platens(render::Scene& scene, const SeriesCase& item) {
+  const double height = size_of(*item.record).height, radius = height / 2;
+  for (const double side : {-1.0, 1.0}) {
+    render::Polyline line{{}, steel, 3, render::Line::solid, false};
+    const double jaw = item.value * radius;
+    for (int i = -20; i <= 20; ++i) {
+      const double x = 0.5 * radius * i / 20;
+      const double rise = jaw > 0 ? jaw - std::sqrt(jaw * jaw - x * x) : 0;
+      line.points.push_back({x, 0, radius + side * (radius - rise)});
+    }
+    scene.lines.push_back(line);
+  }
+}
+
+Panel disc_panel(const StudyResult& study, const SeriesCase& item) {
+  render::Scene scene = section_scene(study, *item.record, picture_width);
+  add_platens(scene, item);
+  const auto particles = static_cast<double>(item.record->table("particles").rows());
+  return {
+      .id = "disc_" + item.id,
+      .caption = "The disc between " + item.label + ", cut at half its thickness.",
+      .alt = "A disc of " + count(particles) + " particles between " + item.label + ".",
+      .content = Picture{.scene = std::move(scene), .label = item.label, .legend = mineral_legend(study, *item.record)},
+      .per_row = 3};
+}
+
+render::Chart curves_of(const std::vector<SeriesCase>& cases, const CurveOf& of, const std::string& x_title) {
+  render::Chart chart;
+  chart.x.title = x_title;
+  chart.left.title = "2P/(πDt) (MPa)";
+  chart.left.low = 0;
+  add_curves(chart, cases, of);
+  chart.legend = render::Chart::Legend::below;
+  chart.height = curves_height;
+  return chart;
+}
+
+std::vector<double> strengths(const std::vector<const dem::Record*>& records, const dem::Quantity& of) {
+  std::vector<double> values;
+  for (const dem::Record* record : records) {
+    const double value = record->value_or_nan(of);
+    if (std::isfinite(value)) values.push_back(value);
+  }
+  return values;
+}
+
+struct Sample {
+  std::string label;
+  std::vector<double> values;  ///< MPa
+};
+
+std::vector<double> tension_of(const StudyResult& study) {
+  std::vector<double> values;
+  for (const SeriesCase& item : series_of(of_mineral(study, ""), test_tension, parameter::confining_pressure)) {
+    const std::vector<double> more = strengths(item.repeats, quantity::tensile_strength);
+    values.insert(values.end(), more.begin(), more.end());
+  }
+  return values;
+}
+
+render::Chart strengths_chart(const std::vector<Sample>& samples) {
+  render::Chart chart;
+  chart.left.title = "Tensile strength (MPa)";
+  chart.left.low = 0;
+  chart.x.low = 0.5;
+  chart.x.high = static_cast<double>(samples.size()) + 0.5;
+  render::Series seeds{.label = "one specimen each",
+                       .x = {},
+                       .y = {},
+                       .colour = {0.45, 0.45, 0.45},
+                       .line = render::Line::none,
+                       .marker = render::Marker::cross,
+                       .y_error = {}};
+  render::Series mean{.label = "mean and its 95 % interval",
+                      .x = {},
+                      .y = {},
+                      .colour = render::palette(0),
+                      .line = render::Line::none,
+                      .marker = render::Marker::circle,
+                      .y_error = {}};
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const double at = static_cast<double>(k) + 1;
+    chart.x.ticks.emplace_back(at, samples[k].label);
+    for (const double value : samples[k].values) {
+      seeds.x.push_back(at - 0.12);
+      seeds.y.push_back(value);
+    }
+    const analysis::Estimate estimate = analysis::mean_of(samples[k].values);
+    if (!std::isfinite(estimate.value)) continue;
+    mean.x.push_back(at + 0.12);
+    mean.y.push_back(estimate.value);
+    mean.y_error.push_back(estimate.has_interval() ? estimate.high - estimate.value : 0);
+  }
+  if (std::ranges::all_of(mean.y_error, [](double e) { return e == 0; })) {
+    mean.y_error.clear();
+    mean.label = "mean";
+  }
+  chart.series = {seeds, mean};
+  chart.legend = render::Chart::Legend::below;
+  chart.height = curves_height;
+  return chart;
+}
+
+std::size_t first_cracks(const dem::Record& record) {
+  double at_peak = 0;
+  for (const dem::Quantity& one : quantity::cracks_at_peak) at_peak += record.value_or_nan(one);
+  const auto first = static_cast<std::size_t>(std::max(0.01 * at_peak, 10.0));
+  return std::min(first, record.table("cracks").rows());
+}
+
+}  // namespace
+
+FigureContent brazilian_test(const StudyResult& study) {
+  FigureContent content;
+  if (auto missing = missing_cases(study, test_brazilian)) content.panels.push_back(*missing);
+  const auto cases = discs(study);
+  if (cases.empty()) return content;
+  for (const SeriesCase& item : cases) content.panels.push_back(disc_panel(study, item));
+  const std::string peaks = by_case(cases, quantity::brazilian_strength, 3);
+  content.panels.push_back(
+      {.id = "load",
+       .caption = "Load against the approach of the platens over the diameter.",
+       .alt = "Curves of load; largest values of " + peaks + ".",
+       .content = curves_of(cases, {"platen_strain", "axial_stress", 100, 1e-6}, "Approach of the platens (% of D)")});
+  content.panels.push_back(
+      {.id = "strain",
+       .caption = "Load against the strain across the loaded diameter, of a round gauge in the middle.",
+       .alt = "Curves of load against the tensile strain in the middle; largest loads of " + peaks + ".",
+       .content = curves_of(cases, {"axial_strain", "axial_stress", 100, 1e-6}, "Tensile strain in the middle (%)")});
+  const Size size = size_of(*cases.front().record);
+  content.finding = fmt::format("Discs of {:g} mm bear up to {}.", 1e3 * size.diameter, peaks);
+  return content;
+}
+
+FigureContent brazilian_strengths(const StudyResult& study) {
+  FigureContent content;
+  content.statement = fmt::format(
+      "Direct tension gives about {:g} of the Brazilian strength in igneous rock, {:g} in metamorphic and {:g} in "
+      "sedimentary rock.",
+      igneous, highest, lowest);
+  add_missing(content, study, {test_brazilian, test_tension});
+  const auto cases = discs(study);
+  if (cases.empty()) return content;
+  std::vector<Sample> samples;
+  const std::vector<double> tension = tension_of(study);
+  if (!tension.empty()) samples.push_back({"direct tension", tension});
+  TextTable table{{"Test", "Specimens", "Strength (MPa), 95 % interval", "Direct over Brazilian, 95 % interval",
+                   "First cracks in the middle (%)"},
+                  {}};
+  if (!tension.empty()) {
+    table.rows.push_back(
+        {"direct tension", std::to_string(tension.size()), estimate_text(analysis::mean_of(tension), 3, true), "", ""});
+  }
+  std::vector<std::string> said;
+  bool within = true, known = false;
+  for (const SeriesCase& item : cases) {
+    const std::vector<double> values = strengths(item.repeats, quantity::brazilian_strength);
+    samples.push_back({item.label, values});
+    const analysis::Estimate ratio = analysis::ratio_of_means(tension, values);
+    const Spread middle = analysis::spread(item, shown(quantity::first_cracks_middle));
+    table.rows.push_back({"Brazilian, " + item.label, std::to_string(values.size()),
+                          estimate_text(analysis::mean_of(values), 3, true),
+                          std::isfinite(ratio.value) ? estimate_text(ratio, 2, true) : "–",
+                          middle.count > 0 ? number(middle.mean, 2) : "–"});
+    if (!std::isfinite(ratio.value)) continue;
+    known = true;
+    within = within && ratio.value >= lowest && ratio.value <= highest;
+    said.push_back(estimate_text(ratio, 2) + " with " + item.label);
+  }
+  content.panels.push_back({.id = "strengths",
+                            .caption = "Tensile strengths by test.",
+                            .alt = "Brazilian strengths of " + by_case(cases, quantity::brazilian_strength, 3) + ".",
+                            .content = strengths_chart(samples)});
+  content.panels.push_back(
+      {.id = "table", .caption = "Strengths and their ratio.", .alt = "", .content = table, .per_row = 1});
+  if (known) {
+    content.agreement = within ? Agreement::agrees : Agreement::disagrees;
+    content.finding = "Direct over Brazilian strength is " + listed(said) + ".";
+  } else {
+    content.finding = "Brazilian strengths: " + by_case(cases, quantity::brazilian_strength, 3) + ".";
+  }
+  return content;
+}
+
+FigureContent brazilian_cracks(const StudyResult& study) {
+  FigureContent content;
+  content.statement = "A disc splits along its loaded diameter, and fails first in the middle.";
+  content.expected = true;
+  if (auto missing = missing_cases(study, test_brazilian)) content.panels.push_back(*missing);
+  const auto cases = discs(study);
+  if (cases.empty()) return content;
+  for (const SeriesCase& item : cases) {
+    const dem::Record& record = *item.record;
+    const std::size_t first = first_cracks(record);
+    render::Scene scene = section_scene(study, record, picture_width);
+    add_platens(scene, item);
+    for (render::Discs& discs : crack_discs(record, first, 1)) {
+      discs.over = true;
+      scene.discs.push_back(std::move(discs));
+    }
+    content.panels.push_back(
+        {.id = "first_" + item.id,
+         .caption = fmt::format("The first {} cracks, of the whole thickness.", first),
+         .alt = fmt::format("The first {} cracks: {}.", first, crack_words(crack_numbers(record, first))),
+         .content = Picture{.scene = std::move(scene), .label = item.label + ", first cracks", .legend = {}},
+         .per_row = 4});
+    Picture after = section_cracks(study, record, all_cracks, item.label + ", at the end", picture_width);
+    add_platens(after.scene, item);
+    content.panels.push_back({.id = "end_" + item.id,
+                              .caption = "Cracks near the section at the end of the test.",
+                              .alt = "Cracks at the end: " + crack_words(crack_numbers(record, all_cracks)) + ".",
+                              .content = std::move(after),
+                              .per_row = 4});
+  }
+  content.finding = "Of the first cracks " + by_case(cases, quantity::first_cracks_middle, 2) +
+                    " lie within half the radius of the axis, and " + by_case(cases, quantity::first_cracks_band, 2) +
+                    " within a quarter of it of the loaded diameter; of cracks spread evenly 25 % and 31 % would.";
+  return content;
+}
+
+}  // namespace reports::texture

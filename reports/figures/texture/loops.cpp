@@ -1,0 +1,85 @@
+// Compression with loops: the curve, and damage as loss of modulus from loop to loop.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "reports/figures/table.h"
+#include "reports/figures/texture/parts.h"
+#include "reports/text.h"
+
+namespace reports::texture {
+namespace {
+
+constexpr int curves_height = 340;
+
+render::Series of_loops(const dem::Record& record, const std::string& y, double factor, std::size_t look) {
+  render::Series series = curve(record.table("loops"), {"strain", y, 100, factor});
+  series.colour = render::palette(look);
+  series.marker = render::marker_style(look);
+  return series;
+}
+
+}  // namespace
+
+FigureContent unloading_loops_test(const StudyResult& study) {
+  FigureContent content;
+  if (auto missing = missing_cases(study, test_loops)) content.panels.push_back(*missing);
+  const auto cases = series_of(of_mineral(study, ""), test_loops, parameter::aspect_ratio);
+  if (cases.empty()) return content;
+  const dem::Record& first = *cases.front().record;
+  render::Chart stress;
+  stress.x.title = "Axial strain (%)";
+  stress.left.title = "Axial stress (MPa)";
+  stress.left.low = 0;
+  render::Series line = curve(first.table("history"), {"axial_strain", "axial_stress", 100, 1e-6});
+  line.colour = render::palette(0);
+  stress.series.push_back(line);
+  stress.height = curves_height;
+  stress.legend = render::Chart::Legend::none;
+  const double strength = first.value_or_nan(quantity::compressive_strength);
+  content.panels.push_back({.id = "curve",
+                            .caption = "Axial stress against the axial strain of the gauge, seed " +
+                                       shortest(first.number(parameter::seed.id)) + ".",
+                            .alt = fmt::format("A stress-strain curve with {} loops and a peak of {} MPa.",
+                                               first.table("loops").rows(), number(strength, 3)),
+                            .content = stress});
+  render::Chart damage;
+  damage.x.title = "Axial strain where a loop is turned down (%)";
+  damage.left.title = "Damage 1 − E/E₁";
+  damage.right.title = "Modulus of unloading (GPa)";
+  TextTable table{{"Seed", "Loop", "Strain (%)", "Stress (MPa)", "Strain left (%)", "E (GPa)", "Damage"}, {}};
+  double last = 0;
+  std::size_t k = 0;
+  for (const dem::Record* record : cases.front().repeats) {
+    const dem::Table& loops = record->table("loops");
+    const std::string seed = shortest(record->number(parameter::seed.id));
+    render::Series lost = of_loops(*record, "damage", 1, k);
+    lost.label = "seed " + seed;
+    if (!lost.x.empty()) damage.series.push_back(lost);
+    const auto strain = loops.real("strain"), top = loops.real("stress"), left = loops.real("low_strain"),
+               modulus = loops.real("modulus"), d = loops.real("damage");
+    for (std::size_t i = 0; i < loops.rows(); ++i) {
+      table.rows.push_back({seed, std::to_string(i + 1), number(100 * strain[i], 3), number(1e-6 * top[i], 3),
+                            number(100 * left[i], 3), number(1e-9 * modulus[i], 3), number(d[i], 2)});
+      if (record == &first) last = d[i];
+    }
+    ++k;
+  }
+  damage.right.title.clear();
+  damage.height = curves_height;
+  damage.legend = render::Chart::Legend::below;
+  if (!damage.series.empty()) {
+    content.panels.push_back({.id = "damage",
+                              .caption = "Damage by loop: the loss of the secant modulus of unloading.",
+                              .alt = fmt::format("Damage rises to {} at the last loop.", number(last, 2)),
+                              .content = damage});
+  }
+  content.panels.push_back(
+      {.id = "table", .caption = "Loops and their moduli.", .alt = "", .content = table, .per_row = 1});
+  content.finding =
+      fmt::format("The first unloading has a modulus of {}; at the last of {} loops {} of it is lost.",
+                  by_case(cases, quantity::unloading_modulus, 3), first.table("loops").rows(), percent(last, 0));
+  return content;
+}
+
+}  // namespace reports::texture
