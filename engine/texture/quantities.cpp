@@ -11,8 +11,6 @@ std::span<const Quantity> quantities() {
                                        brazilian_strength,
                                        first_cracks_middle,
                                        first_cracks_band,
-                                       fracture_toughness,
-                                       mouth_opening,
                                        shear_strength,
                                        residual_shear,
                                        dilation_at_peak,

@@ -1,4 +1,4 @@
-// Bodies that are cut out of packings, round faces and the gauge of a notch; half discs, direct shear, loops of unloading.
+// Bodies that are cut out of packings, round faces and the gauge of a notch; direct shear, loops of unloading.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -15,7 +15,6 @@
 #include "engine/texture/loading/brazilian.h"
 #include "engine/texture/loading/direct_shear.h"
 #include "engine/texture/loading/loading.h"
-#include "engine/texture/loading/semicircular_bending.h"
 #include "engine/texture/loading/unloading_loops.h"
 #include "engine/texture/model.h"
 #include "engine/texture/quantities.h"
@@ -83,7 +82,7 @@ TEST_CASE("a body knows its volume and what belongs to it") {
 }
 
 TEST_CASE("what is cut out of a packing lies in its box, holds together, and has its notch") {
-  for (const Test& test : {brazilian(9e-3, 5e-3), semicircular_bending(11e-3, 5e-3)}) {
+  for (const Test& test : {brazilian(9e-3, 5e-3)}) {
     const Settings settings = granite_in(test);
     const Specimen specimen = Run::make(settings);
     const Body& body = *test.body;
@@ -154,13 +153,6 @@ TEST_CASE("the gauge of a notch reads how far its sides have moved apart") {
   CHECK(MouthGauge({}, 0).read({}) == 0);
 }
 
-TEST_CASE("geometry factor of half discs") {
-  // Rises with the notch and the span.
-  CHECK(half_disc_factor(0.5, 0.5) == test::near(3.680).epsilon(1e-3));
-  CHECK(half_disc_factor(0.8, 0.5) > half_disc_factor(0.5, 0.5));
-  CHECK(half_disc_factor(0.6, 0.6) > half_disc_factor(0.6, 0.4));
-}
-
 TEST_CASE("what makes no test is told with file, line and key") {
   struct Bad {
     std::string test, table, key, value, said;  // in the file: [table], key = value
@@ -174,10 +166,6 @@ TEST_CASE("what makes no test is told with file, line and key") {
       {"brazilian", "sweep", "jaw_ratio", "[0, 1.02]", "write 1.5 (ISRM)"},
       {"brazilian", "sweep", "jaw_ratio", "[]", "the list is empty"},
       {"brazilian", "brazilian", "sample_strain", "1e-8", "closer than steps"},
-      {"semicircular_bending", "semicircular_bending", "thickness", "\"3 mm\"", "write at least 4.55 mm"},
-      {"semicircular_bending", "semicircular_bending", "notch", "0.7", "the ligament is 1.5 mm high",
-       "diameter = \"10 mm\""},
-      {"semicircular_bending", "semicircular_bending", "span", "1.2", "0.4 to 0.9"},
       {"direct_shear", "direct_shear", "edge", "\"3 mm\"", "write at least 4.55 mm"},
       {"direct_shear", "direct_shear", "grip", "0.02", "write at least 0.05", "edge = \"7 mm\""},
       {"direct_shear", "direct_shear", "gap", "0.1", "write at least 0.17", "edge = \"7 mm\""},
@@ -212,20 +200,6 @@ TEST_CASE("what makes no test is told with file, line and key") {
     CHECK(error->key().starts_with(bad.table + "." + bad.key));
     CHECK(what.find(bad.said) != std::string::npos);
   }
-}
-
-TEST_CASE("a half disc of the granite breaks, and its toughness follows from its largest load") {
-  Test test = semicircular_bending(14e-3, 5.6e-3, 0.5, 0.6);
-  test.rate = 1e-7;
-  const Run run(granite_in(test));
-  REQUIRE(run.loading.end());
-  const double k = run.value(quantity::fracture_toughness);
-  CHECK(k > 0.5);
-  CHECK(k < 3);
-  const auto peak = std::ranges::max_element(run.loading.history(), {}, &HistoryRow::axial_stress);
-  CHECK(k == test::near(1e-6 * peak->axial_stress * std::sqrt(std::numbers::pi * 3.5e-3) * half_disc_factor(0.6, 0.5)));
-  CHECK(run.value(quantity::mouth_opening) > 0);
-  CHECK(run.value(quantity::energy_residual) < 1e-2);
 }
 
 TEST_CASE("a block in direct shear keeps its normal stress, breaks along the gap, and goes on to the same bits") {

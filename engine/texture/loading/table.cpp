@@ -11,7 +11,6 @@
 #include "engine/texture/loading/direct_shear.h"
 #include "engine/texture/loading/direct_tension.h"
 #include "engine/texture/loading/genesis.h"
-#include "engine/texture/loading/semicircular_bending.h"
 #include "engine/texture/loading/test.h"
 #include "engine/texture/loading/unloading_loops.h"
 
@@ -19,7 +18,7 @@ namespace dem::texture {
 
 std::span<const TestEntry> tests() {
   static const std::array table = {
-      compression_entry(),  direct_tension_entry(),  brazilian_entry(), semicircular_bending_entry(),
+      compression_entry(),  direct_tension_entry(),  brazilian_entry(),
       direct_shear_entry(), unloading_loops_entry(), genesis_entry(),
   };
   return table;
