@@ -14,7 +14,6 @@ namespace quantity = dem::texture::quantity;
 inline constexpr std::string_view test_compression = "compression";
 inline constexpr std::string_view test_tension = "direct_tension";
 inline constexpr std::string_view test_brazilian = "brazilian";
-inline constexpr std::string_view test_half_disc = "semicircular_bending";
 inline constexpr std::string_view test_shear = "direct_shear";
 inline constexpr std::string_view test_loops = "unloading_loops";
 inline constexpr std::string_view test_genesis = "genesis";

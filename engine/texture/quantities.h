@@ -13,8 +13,7 @@ using dem::quantity::measured, dem::quantity::scattered;
 
 // Scatter: of the granite at draft scale (docs/notes/texture-and-seed.md).
 
-inline constexpr std::string_view loaded =
-    "compression direct_tension brazilian semicircular_bending direct_shear unloading_loops";
+inline constexpr std::string_view loaded = "compression direct_tension brazilian direct_shear unloading_loops";
 /// Those of a cylinder that is stretched or shortened along its axis.
 inline constexpr std::string_view stretched = "compression direct_tension unloading_loops";
 inline constexpr std::string_view shortened = "compression unloading_loops";
@@ -57,22 +56,6 @@ inline constexpr Quantity first_cracks_band{.id = "first_cracks.band",
                                                 "Share of the same cracks within a quarter of the radius of the plane "
                                                 "through both loads; 31 % of cracks spread "
                                                 "evenly are there."};
-inline constexpr Quantity fracture_toughness{
-    .id = "fracture_toughness",
-    .name = "Fracture toughness",
-    .symbol = "K_Ic",
-    .unit = "MPa√m",
-    .tests = "semicircular_bending",
-    .meaning = "Stress intensity at the tip of the notch at the largest load, by Kuruppu et al. 2014."};
-inline constexpr Quantity mouth_opening{
-    .id = "mouth_opening",
-    .name = "Notch opening at the largest load",
-    .symbol = "CMOD",
-    .unit = "µm",
-    .tests = "semicircular_bending",
-    .meaning =
-        "Distance that the particles to both sides of the mid-span have moved apart "
-        "at the lower face."};
 inline constexpr Quantity shear_strength{.id = "shear_strength",
                                          .name = "Peak shear strength",
                                          .symbol = "τ_p",
