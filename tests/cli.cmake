@@ -31,4 +31,4 @@ set_tests_properties(test_package PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 LA
 # All scenarios at smoke scale against what was accepted. Exit code 77: there are no references.
 add_test(NAME test_references
          COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/references/check $<TARGET_FILE:dem-report> ${PROJECT_BINARY_DIR}/smoke)
-set_tests_properties(test_references PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900 PROCESSORS 2)
+set_tests_properties(test_references PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 PROCESSORS 2 COST 300)

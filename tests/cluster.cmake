@@ -6,5 +6,5 @@ add_dependencies(test_plan dem-report)
 
 # A real Slurm of one host. Exit code 77: there is none here.
 add_test(NAME test_slurm COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cluster/slurm)
-set_tests_properties(test_slurm PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900 LABELS cluster PROCESSORS 2
+set_tests_properties(test_slurm PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900 LABELS cluster COST 200
                                            ENVIRONMENT "DEM_PROGRAM=$<TARGET_FILE:dem-report>")
