@@ -339,7 +339,7 @@ std::uintmax_t size_of(const fs::path& folder) {
 
 }  // namespace
 
-std::uintmax_t most_bytes(const std::string& scale) { return scale == "smoke" ? 400'000 : 1'500'000; }
+std::uintmax_t most_bytes(const std::string& scale) { return scale == "smoke" ? 330'000 : 1'500'000; }
 
 bool is_reference(const fs::path& folder) {
   std::error_code error;
