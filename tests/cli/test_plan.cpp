@@ -186,7 +186,7 @@ TEST_CASE("bad lines, missing plans and scenarios that changed since: exit code 
   CHECK(has(run_case(folder.path(), {"--pack", "0"}).err, "there are no packs beside the manifest"));
 
   std::string text = dem::read_file(scenario);
-  text.replace(text.find("factor = 20.0"), 13, "factor = 25.0");
+  text.replace(text.find("factor = 6.0"), 12, "factor = 7.0");
   std::ofstream(folder / "mine.toml") << text;
   const test::Outcome stale = run_case(folder.path(), {"1"});
   CAPTURE(stale.err);
