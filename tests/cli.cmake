@@ -22,7 +22,8 @@ set_tests_properties(test_launcher PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
 # Pages of smoke reports as Chromium shows and prints them, looked at by axe-core. Exit code 77: one of them is not to be had.
 add_test(NAME test_pages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/page/run $<TARGET_FILE:dem-report>
                                  ${CMAKE_CURRENT_BINARY_DIR}/pages)
-set_tests_properties(test_pages PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200)
+set_tests_properties(test_pages PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200 DEPENDS test_references
+                                           ENVIRONMENT "DEM_SMOKE=${PROJECT_BINARY_DIR}/smoke")
 
 # The Debian package in a bare system. Minutes, and the network: not in tests/run. Exit code 77: not on this machine.
 add_test(NAME test_package COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/package/run ${PROJECT_BINARY_DIR})

@@ -17,4 +17,5 @@ target_link_libraries(dem_made_report PUBLIC dem_render PRIVATE dem_store nlohma
 dem_test(test_comparison SOURCES reports/test_comparison.cpp LIBRARIES dem_made_report dem_comparison dem_models)
 dem_test(test_overview SOURCES reports/test_overview.cpp LIBRARIES dem_made_report dem_overview)
 dem_test(test_report_looks SOURCES reports/test_looks.cpp LIBRARIES dem_reports dem_study dem_models)
-target_compile_definitions(test_report_looks PRIVATE DEM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+target_compile_definitions(test_report_looks PRIVATE DEM_SMOKE="${PROJECT_BINARY_DIR}/smoke")
+set_tests_properties(test_report_looks PROPERTIES DEPENDS test_references)  # which makes the records anew

@@ -1,5 +1,6 @@
 #include "render/offscreen/window.h"
 
+#include <malloc.h>
 #include <vtkCameraPass.h>
 #include <vtkFloatArray.h>
 #include <vtkLightsPass.h>
@@ -14,12 +15,19 @@
 #include <vtk_glew.h>
 
 #include <cstdlib>
+#include <limits>
 
 #include "engine/core/errors.h"
 
 namespace render {
 
-void prepare_environment() { setenv("MESA_SHADER_CACHE_DISABLE", "true", 0); }
+void prepare_environment() {
+  setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
+  // Frames of tens of MB come and go with every picture. By default each is given back to the system and taken anew as pages
+  // that have to be zeroed: half the time of drawing. They stay with the process instead, which takes 40 % more memory.
+  mallopt(M_MMAP_MAX, 0);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+}
 
 std::string environment_settings() {
   std::string text;

@@ -338,19 +338,3 @@ TEST_CASE("published numbers stand beside the rock that they belong to only") {
   CHECK_FALSE(has(text, "<strong>Published.</strong>"));
   CHECK(has(text, "No published numbers are known for this scenario."));
 }
-
-TEST_CASE("every figure of the lattice can be drawn, by each kind of planes") {
-  const test::Scratch folder;
-  const test::Outcome outcome = test::run_program(
-      folder.path(), {DEM_SOURCE_DIR "/scenarios/quartzite_energy.toml", "--scale", "smoke", "--format", "html"});
-  INFO(outcome.err);
-  const fs::path output = folder.path() / "out/quartzite_energy.smoke";
-  CHECK(outcome.code == due_code_of(output));
-  const std::string report = dem::read_file(output / "report.html");
-  CHECK_FALSE(has(report, "could not be drawn"));
-  CHECK(has(report, "Longitudinal waves of the rock run at 6014 m/s"));
-  for (const char* planes : {"rigid", "plate", "elastic"}) {
-    CAPTURE(planes);
-    CHECK(fs::exists(output / "figures" / (std::string("quartzite_fragments_apart_tension_") + planes + ".png")));
-  }
-}

@@ -49,6 +49,7 @@ reports::ReportOptions options_for(const std::filesystem::path& folder) {
   options.assets = assets;
   options.engine_version = "0.1.0";
   options.again.command = "./dem-report synthetic.toml --scale draft";
+  options.dpi = 100;  // pixels are looked at elsewhere
   return options;
 }
 
