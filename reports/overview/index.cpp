@@ -116,8 +116,9 @@ Data row_data(const StudyRow& row, const History* history) {
   const bool broken = row.checks_held() < row.checks.size();
   data.set("checks", fmt::format("{} of {}", row.checks_held(), row.checks.size()));
   data.set("checks_class", broken ? "bad" : "");
-  std::string published =
-      row.published.empty() ? "–" : fmt::format("{} of {} met", row.count("met"), row.published.size());
+  std::string published = row.published.empty() ? "–"
+                          : row.judged() > 0    ? fmt::format("{} of {} met", row.count("met"), row.published.size())
+                                                : fmt::format("none of {} judged", row.published.size());
   for (const char* word : {"missed", "undecided"}) {
     if (const std::size_t count = row.count(word); count > 0) published += fmt::format(", {} {}", count, word);
   }

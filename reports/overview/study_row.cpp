@@ -140,6 +140,7 @@ std::size_t StudyRow::checks_held() const {
 std::size_t StudyRow::count(const std::string& verdict) const {
   return static_cast<std::size_t>(std::ranges::count(published, verdict, &PublishedOf::verdict));
 }
+std::size_t StudyRow::judged() const { return count("met") + count("missed") + count("undecided"); }
 std::size_t StudyRow::alarms() const {
   return static_cast<std::size_t>(std::ranges::count_if(changes, &ChangeOf::alarms));
 }
@@ -156,15 +157,15 @@ std::string StudyRow::verdict() const {
     text += fmt::format("{} of {} cases failed; ", failed, cases.size());
   }
   text += fmt::format("{} of {} checks held", checks_held(), checks.size());
-  if (!published.empty() && count("not judged") == published.size()) {
-    text += fmt::format("; none of {} published numbers judged at this scale", published.size());
-  } else if (!published.empty()) {
-    text += fmt::format("; {} of {} published numbers met", count("met"), published.size());
+  if (!published.empty()) {
+    text += judged() > 0 ? fmt::format("; {} of {} published numbers met", count("met"), published.size())
+                         : fmt::format("; none of {} published numbers judged at this scale", published.size());
     std::vector<std::string> words = {"met", "missed", "undecided"};
     for (const PublishedOf& one : published) {
       if (std::ranges::find(words, one.verdict) == words.end()) words.push_back(one.verdict);
     }
     for (std::size_t i = 1; i < words.size(); ++i) {
+      if (judged() == 0 && words[i] == "not judged") continue;
       if (const std::size_t of_word = count(words[i]); of_word > 0) text += fmt::format(", {} {}", of_word, words[i]);
     }
   }

@@ -60,6 +60,7 @@ struct StudyRow {
   [[nodiscard]] std::size_t failed_cases() const;
   [[nodiscard]] std::size_t checks_held() const;
   [[nodiscard]] std::size_t count(const std::string& verdict) const;
+  [[nodiscard]] std::size_t judged() const;  ///< published numbers that are met, missed or undecided
   [[nodiscard]] std::size_t alarms() const;
   /// "failed": it could not run, a case or a check failed; "changed": beyond tolerance, or its reference cannot be read;
   /// "well".

@@ -60,6 +60,9 @@ TEST_CASE("the index: what failed first, filters without scripts, errors shown, 
   CHECK(rows[3].verdict() == "2 of 2 checks held; 1 of 1 published numbers met");
   CHECK(rows[3].seconds == 3.5);
   CHECK(rows[1].verdict() == "0 of 2 checks held; 0 of 1 published numbers met, 1 missed");
+  StudyRow none = rows[3];  // at another scale than the published one
+  none.published = {{"a", "", "not judged"}, {"b", "", "not computed"}};
+  CHECK(none.verdict() == "2 of 2 checks held; none of 2 published numbers judged at this scale, 1 not computed");
   overview::write_index(folder.path(), rows, nullptr, assets);
   const std::string page = dem::read_file(folder / "index.html");
   CHECK_FALSE(has(page, "<script"));
