@@ -101,16 +101,18 @@ bool Scenario::given(std::string_view path) const {
   return counts_.contains(path);
 }
 
-Scenario Scenario::with(std::string_view path, Value value, std::string_view source) const {
+Scenario Scenario::with(std::string_view path, Value value, std::string_view source) const& {
+  return Scenario(*this).with(path, std::move(value), source);
+}
+Scenario Scenario::with(std::string_view path, Value value, std::string_view source) && {
   if (entry(path).value.index() != value.index()) defect(path, "is replaced by a value of another type");
-  Scenario copy = *this;
-  Entry& replaced = copy.entries_.find(path)->second;
+  Entry& replaced = entries_.find(path)->second;
   replaced.value = std::move(value);
   if (!source.empty() && source != path) {
     replaced.source = source;
     replaced.where = entry(source).where;
   }
-  return copy;
+  return std::move(*this);
 }
 
 InputError Scenario::error(std::string_view path, const std::string& wrong, std::string right) const {

@@ -111,7 +111,9 @@ class Scenario {
 
   /// A copy with one value replaced (SI), for the cases of a sweep. `source` is the key that it comes from
   /// ("sweep.mineral"): errors about `path` name that one, and its line.
-  [[nodiscard]] Scenario with(std::string_view path, Value value, std::string_view source = {}) const;
+  [[nodiscard]] Scenario with(std::string_view path, Value value, std::string_view source = {}) const&;
+  [[nodiscard]] Scenario with(std::string_view path, Value value,
+                              std::string_view source = {}) &&;  ///< itself, changed
   /// An error about the value of `path`, with the line where the user wrote it.
   [[nodiscard]] InputError error(std::string_view path, const std::string& wrong, std::string right) const;
   /// Stable text of the resolved values of the keys declared under these paths ("mineral[].share" stands for that of every

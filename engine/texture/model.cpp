@@ -66,7 +66,7 @@ CaseSpec case_of(const Scenario& base, const std::string& test, const Variant& v
                           .with("texture.only_mineral", v.only_mineral, from("mineral"))
                           .with("compression.confining_pressure", confined ? v.swept : 0.0, from("confining_pressure"))
                           .with("seed", v.seed);
-  if (sweep && !confined) scenario = scenario.with(sweep->key(), v.swept, from(sweep->name));
+  if (sweep && !confined) scenario = std::move(scenario).with(sweep->key(), v.swept, from(sweep->name));
   if (const auto resolve = test_entry(test).resolve) scenario = resolve(scenario);
   std::string id = test + "_" + (v.only_mineral.empty() ? "ar_" + id_part(v.aspect_ratio) : id_part(v.only_mineral));
   if (!base.reals("sweep.dip").empty() || v.dip != 0) id += "_dip_" + id_part(dip);
