@@ -101,7 +101,7 @@ inline constexpr Quantity poisson_ratio_at_largest_strain{
 inline constexpr Quantity tensile_strength =
     measured(dem::quantity::tensile_strength, "tension", "Largest stress of a test that ends in failure.");
 inline constexpr Quantity tensile_strength_error{.id = "tensile_strength_error",
-                                                 .name = "Tensile strength, deviation from theory",
+                                                 .name = "Deviation of the tensile strength from theory",
                                                  .unit = "%",
                                                  .tests = "tension",
                                                  .meaning = "Strength of the block over that of the rock, less one."};
@@ -110,7 +110,7 @@ inline constexpr Quantity compressive_strength =
              "Largest stress of a test that ends in failure; the uniaxial compressive strength, UCS.");
 inline constexpr Quantity compressive_strength_error{
     .id = "compressive_strength_error",
-    .name = "Compressive strength, deviation from theory",
+    .name = "Deviation of the compressive strength from theory",
     .unit = "%",
     .tests = "compression",
     .meaning =

@@ -169,16 +169,24 @@ std::optional<Vec2> place_inside(const ChartLayout& layout, const Band& band) {
   const double width = text_width(band.label, layout.text) + 6;
   std::optional<Vec2> best;
   double most = 1.25 * layout.text;  // the least room
-  for (double left = layout.plot.left; left + width <= layout.plot.right; left += 4) {
+  constexpr double tick = 8;         // px that ticks reach into the plot, with some air
+  for (double left = layout.plot.left + tick; left + width <= layout.plot.right - tick; left += 4) {
+    const double right = left + width;
+    if (band.x.empty() || layout.across(band.x.front()) > left) continue;
     double top = layout.plot.top, bottom = layout.plot.bottom;
     bool reached = false;
-    for (std::size_t i = 0; i < band.x.size(); ++i) {
-      const Vec2 high = layout.at(band.x[i], band.high[i], band.side);
-      if (high.x < left - 2) continue;
-      top = std::max(top, high.y);
-      bottom = std::min(bottom, layout.down(band.low[i], band.side));
-      reached = high.x >= left + width;
-      if (reached) break;
+    // Edges are straight between their points: they are nearest at those, and where the label begins and ends.
+    for (std::size_t i = 0; i + 1 < band.x.size() && !reached; ++i) {
+      const Vec2 a = layout.at(band.x[i], band.high[i], band.side),
+                 b = layout.at(band.x[i + 1], band.high[i + 1], band.side);
+      if (b.x < left || !(b.x > a.x)) continue;
+      const double low_a = layout.down(band.low[i], band.side), low_b = layout.down(band.low[i + 1], band.side);
+      for (const double x : {std::max(a.x, left), std::min(b.x, right)}) {
+        const double t = (x - a.x) / (b.x - a.x);
+        top = std::max(top, a.y + t * (b.y - a.y));
+        bottom = std::min(bottom, low_a + t * (low_b - low_a));
+      }
+      reached = b.x >= right;
     }
     if (reached && bottom - top > most) {
       most = bottom - top;

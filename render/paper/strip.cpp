@@ -40,7 +40,8 @@ void draw_axes(Paper& paper, const SceneResult& drawn) {
     const double x = drawn.right[i], y = -drawn.up[i], seen = std::hypot(x, y);
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
     const double towards = drawn.right[j] * drawn.up[k] - drawn.right[k] * drawn.up[j];
-    Vec2 label{from.x - 9, from.y + 9};
+    // Beside the ring, on the side that no arrow takes: below it the strip ends.
+    Vec2 label{from.x + (drawn.right[j] + drawn.right[k] > 0 ? -11 : 11), from.y};
     if (seen > 0.15) {
       const Vec2 end{from.x + length * x, from.y + length * y};
       const double ux = x / seen, uy = y / seen;

@@ -59,7 +59,10 @@ void set_standing(DrawnFigure& figure, const Comparisons& comparisons, const std
   }
   if (!figure.agreement) return;
   figure.standing = std::string(word_of(*figure.agreement));
-  if (elsewhere && counts.numbers() > 0) figure.standing += " at " + scale + " scale";
+  // What ours is found to be by a measure of its own, it is at this scale: where it is not as published, that is said.
+  const bool smaller = !comparisons.scale.empty() && comparisons.scale != scale;
+  const bool here = counts.numbers() > 0 ? elsewhere : smaller && *figure.agreement == Agreement::disagrees;
+  if (here) figure.standing += " at " + scale + " scale";
   const std::string said = counts_text(counts);
   figure.standing += said.empty() ? "." : " (" + said + ").";
 }

@@ -376,6 +376,11 @@ TEST_CASE("what stands before ours follows from the numbers that the statement s
   CHECK(standing({}) == "");
   CHECK(standing({row("a", Verdict::met)}, Agreement::disagrees) == "Agrees.");
   CHECK(standing({row("a", Verdict::not_computed, "paper")}, Agreement::agrees) == "Agrees.");
+  reports::DrawnFigure smaller;
+  smaller.statement = "As published.";
+  smaller.agreement = Agreement::disagrees;
+  reports::set_standing(smaller, {"P", "paper", {}}, "draft");
+  CHECK(smaller.standing == "Disagrees at draft scale.");
   Comparison other = row("a", Verdict::missed);
   other.role = reports::Role::sensitivity;
   CHECK(standing({other}) == "");

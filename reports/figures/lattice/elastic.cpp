@@ -25,7 +25,7 @@ render::Chart against_strain(const std::vector<const dem::Record*>& records, con
       low = std::min(low, y);
       high = std::max(high, y);
     }
-    s = styled(s, count(records[i]->value(quantity::particles)), i, render::line_style(i), 1.4);
+    s = styled(s, count(records[i]->value(quantity::particles)) + " elements", i, render::line_style(i), 1.4);
     s.marker = render::marker_style(i);
     chart.series.push_back(s);
   }
@@ -163,8 +163,7 @@ FigureContent elastic_choices(const StudyResult& study) {
                             .per_row = 1});
   content.finding =
       "Springs Kₙ at the planes, the box of element centres and the distance of the end layers were chosen because "
-      "they "
-      "give the published mean errors of about 0.6 %; other sections are off by several percent.";
+      "they give the published mean errors of about 0.6 %; other sections are off by several percent.";
   return content;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "reports/figures/lattice/parts.h"
 #include "reports/figures/table.h"
@@ -271,12 +272,12 @@ FigureContent energy_tension(const StudyResult& study) {
     content.panels.push_back(
         {.id = planes,
          .caption = fmt::format("Tension, planes: {}. The inset shows the failure.", planes),
-         .alt = fmt::format("The block breaks at {} × 10⁻² s; kinetic energy reaches {} % of the work.",
-                            number(1e2 * m.d1, 4), number(100 * r->value_or_nan(quantity::kinetic_share), 3)),
+         .alt = fmt::format("The block breaks at {} s; kinetic energy reaches {} % of the work.", scientific(m.d1, 4),
+                            number(100 * r->value_or_nan(quantity::kinetic_share), 3)),
          .content = chart,
          .per_row = 1});
-    said.push_back(fmt::format("with {} planes it breaks at {} × 10⁻² s, with a kinetic share of {} %", planes,
-                               number(1e2 * m.d1, 4), number(100 * r->value_or_nan(quantity::kinetic_share), 3)));
+    said.push_back(fmt::format("with {} planes it breaks at {} s, with a kinetic share of {} %", planes,
+                               scientific(m.d1, 4), number(100 * r->value_or_nan(quantity::kinetic_share), 3)));
   }
   if (!said.empty()) content.finding = sentence(said);
   return content;
@@ -353,6 +354,10 @@ FigureContent heat_tension(const StudyResult& study) {
 
 FigureContent ledger(const StudyResult& study) {
   FigureContent content;
+  std::set<double> sizes;
+  for (const CaseResult& c : study.cases) {
+    if (c.record) sizes.insert(c.record->value(quantity::particles));
+  }
   content.statement = "The sum of mechanical energy and heat is always equal to the work of the external forces.";
   render::Chart chart;
   chart.x.title = "Share of the test’s time (%)";
@@ -376,7 +381,11 @@ FigureContent ledger(const StudyResult& study) {
         s.y.push_back(ratio);
       }
       if (s.x.empty()) continue;
-      chart.series.push_back(styled(s, r->case_id, colour, render::line_style(colour), 1.2));
+      const std::string choice = choice_words(*r, *records.front());
+      const std::string label = std::string(test) +
+                                (sizes.size() > 1 ? ", " + count(r->value(quantity::particles)) + " elements" : "") +
+                                (choice == "as the series" ? "" : ", " + choice);
+      chart.series.push_back(styled(s, label, colour, render::line_style(colour), 1.2));
       ++colour;
     }
   }

@@ -26,7 +26,7 @@ std::vector<SeriesCase> failed(const StudyResult& study) {
   };
   add(main_record(study, "compression"), "compression", "compression");
   for (const dem::Record* record : records_of(study, "tension"))
-    add(record, "tension, planes: " + planes_of(*record), "tension_" + planes_of(*record));
+    add(record, "tension, " + planes_of(*record) + " planes", "tension_" + planes_of(*record));
   return cases;
 }
 

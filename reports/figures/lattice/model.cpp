@@ -6,6 +6,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "render/paper/text.h"
 #include "reports/figures/lattice/parts.h"
 #include "reports/figures/table.h"
 #include "reports/text.h"
@@ -58,34 +59,32 @@ Picture block_picture(const dem::Record& record) {
   return picture;
 }
 
-constexpr std::string_view svg_head =
-    R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="{0} 0 {1} {2}" width="{1}" height="{2}" font-family="DejaVu Sans" font-size="{3:.4g}">)";
+constexpr double text_size = 12.5;  // px, of a drawing as it is shown
 
-// The middle of the drawing lies at `middle`; it is shown in a column or over the page, with text of 12.5 px there.
-std::string head(int width, int height, int middle, int shown) {
-  return fmt::format(fmt::runtime(svg_head), middle - width / 2, width, height, 12.5 * width / shown);
+// The middle of the drawing lies at `middle`.
+std::string head(int width, int height, int middle) {
+  return fmt::format(
+      R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="{0} 0 {1} {2}" width="{1}" height="{2}" font-family="DejaVu Sans">)",
+      middle - width / 2, width, height);
 }
 
-// Words with _{...} for indices.
-std::string text(double x, double y, std::string_view words, std::string_view anchor = "middle") {
+// A drawing's words, _{...} for indices. Each piece has a place of its own: renderers disagree about where pieces of one
+// centred text go.
+std::string words_at(double size, double x, double y, const std::string& words, std::string_view anchor = "middle") {
+  const auto pieces = render::pieces_of(words);
+  double width = 0;
+  for (const render::Piece& piece : pieces) width += render::run_width(piece.text, piece.scale * size, false);
+  double at = anchor == "middle" ? x - width / 2 : anchor == "end" ? x - width : x;
   std::string body;
-  bool low = false;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words.substr(i, 2) == "_{") {
-      body += R"(<tspan dy="0.25em" font-size="72%">)";
-      low = true;
-      ++i;
-    } else if (low && words[i] == '}') {
-      body += R"(</tspan><tspan dy="-0.18em">)";
-      const std::size_t next = std::min(words.find("_{", i), words.size());
-      body += std::string(words.substr(i + 1, next - i - 1)) + "</tspan>";
-      i = next - 1;
-      low = false;
-    } else {
-      body += words[i];
-    }
+  for (const render::Piece& piece : pieces) {
+    std::string shown;
+    for (const char c : piece.text) shown += c == '>' ? std::string("&gt;") : std::string(1, c);
+    body +=
+        fmt::format(R"(<text{} x="{:.1f}" y="{:.1f}" font-size="{:.4g}" xml:space="preserve">{}</text>)",
+                    piece.scale < 1 ? R"( class="index")" : "", at, y - piece.shift * size, piece.scale * size, shown);
+    at += render::run_width(piece.text, piece.scale * size, false);
   }
-  return fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="{}">{}</text>)", x, y, anchor, body);
+  return body;
 }
 std::string circle(double x, double y, double r, std::string_view fill, bool dashed = false) {
   return fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="{:.1f}" fill="{}" stroke="#333" stroke-width="1.5"{}/>)", x,
@@ -118,25 +117,32 @@ std::string spring(double x0, double y0, double x1, double y1, std::string_view 
 }
 
 std::string springs_drawing() {
-  std::string s = head(600, 250, 300, render::column_width);
+  constexpr int width = 600;  // shown in a column
+  const auto text = [](double x, double y, const std::string& words) {
+    return words_at(text_size * width / render::column_width, x, y, words);
+  };
+  std::string s = head(width, 250, 300);
   s += circle(80, 120, 55, "#c9d5de") + circle(230, 120, 55, "#c9d5de") + spring(80, 120, 230, 120, "#0072b2");
-  s += text(155, 45, "F_{n} = K_{n} X_{n}") + text(155, 98, "K_{n}") + text(155, 215, "breaks when X_{n} &gt; X_{b}");
+  s += text(155, 45, "F_{n} = K_{n} X_{n}") + text(155, 98, "K_{n}") + text(155, 215, "breaks when X_{n} > X_{b}");
   s += circle(365, 120, 55, "#c9d5de") + circle(475, 120, 55, "#c9d5de") + spring(420, 65, 420, 175, "#d55e00");
   s += text(420, 45, "F_{s} = K_{s} X_{s}") + text(450, 124, "K_{s}") + arrow(365, 190, 365, 160, "#333") +
        arrow(475, 50, 475, 80, "#333");
-  s += text(430, 215, "when |F_{s}| &gt; F_{s0} − μ_{p} F_{n}");
+  s += text(430, 215, "when |F_{s}| > F_{s0} − μ_{p} F_{n}");
   return s + "</svg>";
 }
 
 std::string unit_drawing() {
+  const auto text = [](double x, double y, const std::string& words, std::string_view anchor = "middle") {
+    return words_at(text_size, x, y, words, anchor);
+  };
   // The unit seen from the side: element 1 on the three at the plane; bond 1 inclined, bond 2 along the plane.
-  std::string s = head(800, 316, 320, render::page_width);
+  std::string s = head(render::page_width, 316, 320);
   for (const double x0 : {160.0, 480.0}) {
     const bool tension = x0 < 300;
     s += line(x0 - 130, 238, x0 + 130, 238, "#555", 3);
     s += circle(x0 - 52, 190, 48, "#c9d5de") + circle(x0 + 52, 190, 48, "#c9d5de") + circle(x0, 108, 48, "#edd9a3");
     s += line(x0, 108, x0 + 52, 190, "#0072b2", 3) + line(x0 - 52, 190, x0 + 52, 190, "#d55e00", 3);
-    s += text(x0, 103, "1") + text(x0 - 60, 186, "2") + text(x0 + 62, 186, "3, 4") +
+    s += text(x0, 103, "1") + text(x0 - 60, 186, "2") + text(x0 + 72, 186, "3, 4") +
          text(x0 + 60, 136, "bond 1", "start") + text(x0, 258, "bond 2");
     s += tension ? arrow(x0, 60, x0, 18, "#333") + text(x0 + 12, 30, "F_{z}", "start")
                  : arrow(x0, 12, x0, 56, "#333") + text(x0 + 12, 30, "F_{z}", "start");
@@ -150,7 +156,10 @@ std::string unit_drawing() {
 }
 
 std::string sliding_drawing() {
-  std::string s = head(800, 260, 320, render::page_width);
+  const auto text = [](double x, double y, const std::string& words, std::string_view anchor = "middle") {
+    return words_at(text_size, x, y, words, anchor);
+  };
+  std::string s = head(render::page_width, 260, 320);
   s += line(20, 190, 290, 190, "#555", 3) + circle(110, 140, 50, "none", true) + circle(150, 140, 50, "#c9d5de");
   s += circle(110, 140, 3, "#333") + circle(150, 140, 3, "#333") + circle(110, 190, 4, "#d55e00") +
        spring(110, 190, 150, 140, "#d55e00");

@@ -14,6 +14,8 @@
 namespace reports::sheet {
 namespace {
 
+constexpr double third = 1.0 / 3;  // of all directions lie within 30° of one
+
 // Strains to show: the snapshots of the record.
 std::vector<double> strains_of(const dem::Record& r) {
   std::vector<double> strains;
@@ -27,15 +29,12 @@ std::string part(double value) {
   return text;
 }
 
-std::string strain_words(double strain) { return number(100 * strain, 3) + " %"; }
-
 Panel map_panel(const StudyResult& study, const dem::Record& r, double strain, int per_row) {
   const auto n = crack_counts(r, strain);
   const std::string label = label_of(r, study);
   return {.id = r.case_id + "_" + part(strain),
-          .caption = fmt::format("{} at {}: {} broken springs inside grains, {} at boundaries.",
-                                 label == "this run" ? "Fractures" : "Fractures, " + label + ",", strain_words(strain),
-                                 count(n[0]), count(n[1])),
+          .caption = fmt::format("{} at {}: {}.", label == "this run" ? "Fractures" : "Fractures, " + label + ",",
+                                 at_strain(r, strain), crack_words(r, strain)),
           .alt = fmt::format("Map of {} broken springs over the outlines of grains.", count(n[0] + n[1])),
           .content = fracture_map(r, strain, per_row == 1 ? render::page_width : render::column_width),
           .per_row = per_row,
@@ -43,12 +42,12 @@ Panel map_panel(const StudyResult& study, const dem::Record& r, double strain, i
 }
 
 // Angles (radians, 0 ... pi) as a rose over the whole circle, weights equal.
-std::string rose(const std::vector<double>& angles, double reference, std::string_view reference_words) {
+std::string rose(const std::vector<double>& angles, double reference, std::string_view reference_words, int width) {
   constexpr int bins = 18;
   std::array<int, bins> n{};
   for (const double a : angles) ++n[static_cast<std::size_t>(a / std::numbers::pi * bins) % bins];
   const int most = std::max(1, *std::max_element(n.begin(), n.end()));
-  const double c = 200, r = 160;
+  const double c = 0.5 * width, r = 0.4 * width, outside = r + 23;
   std::string body;
   for (const double share : {0.5, 1.0}) {
     body += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"none\" stroke=\"#8a8a8a\"/>", c, c, share * r);
@@ -68,22 +67,25 @@ std::string rose(const std::vector<double>& angles, double reference, std::strin
   body += fmt::format(
       "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#bd4300\" stroke-width=\"2\" "
       "stroke-dasharray=\"7 4\"/>",
-      c - 183 * ux, c + 183 * uy, c + 183 * ux, c - 183 * uy);
-  body += fmt::format("<text x=\"{}\" y=\"408\" text-anchor=\"middle\" font-size=\"12.5\" fill=\"#a04000\">{}</text>",
-                      c, reference_words);
+      c - outside * ux, c + outside * uy, c + outside * ux, c - outside * uy);
+  body += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" font-size=\"12.5\" fill=\"#a04000\">{}</text>", c,
+                      width + 8, reference_words);
   body +=
-      fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"12\" fill=\"#444\">circle: {}</text>", c + 116, c - 136, most);
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 400 420\" width=\"400\" height=\"420\" "
-         "font-family=\"DejaVu Sans\">" +
+      fmt::format("<text x=\"{}\" y=\"{:.0f}\" text-anchor=\"end\" font-size=\"12\" fill=\"#444\">circle: {}</text>",
+                  width - 2, 0.16 * width, most);
+  return fmt::format(
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
+             "font-family=\"DejaVu Sans\">",
+             width, width + 20) +
          body + "</svg>";
 }
 
-std::vector<double> trends_of(const dem::Record& r) {
-  std::vector<double> known;
-  for (const double t : r.table("cracks").real("trend")) {
-    if (std::isfinite(t)) known.push_back(t);
+std::vector<double> known(std::span<const double> values) {
+  std::vector<double> kept;
+  for (const double v : values) {
+    if (std::isfinite(v)) kept.push_back(v);
   }
-  return known;
+  return kept;
 }
 
 // Direction of each trend against the line to the nearest growing grain's centre, 0 ... 90 degrees.
@@ -122,8 +124,7 @@ FigureContent fracture_maps(const StudyResult& study) {
   content.expected = true;
   content.statement =
       test == "pure_shear" ? "Boundaries are half as strong as grains: under pure shear fractures run mainly along "
-                             "them, parallel to the "
-                             "compression."
+                             "them, parallel to the compression."
       : test == "growth" ? "Fractures open radially around grains that increase in volume and link neighbouring grains."
       : test == "extension" ? "The stiff layer breaks by tension fractures through its whole thickness."
                             : "Springs break only in tension, so that fractures open parallel to the compression.";
@@ -133,38 +134,63 @@ FigureContent fracture_maps(const StudyResult& study) {
     content.finding = "No spring broke.";
     return content;
   }
-  content.finding =
-      fmt::format("{} springs broke, {} of them at grain boundaries; the first at a strain of {}.",
-                  count(r->value(quantity::cracks_intra_tension) + r->value(quantity::cracks_inter_tension)),
-                  percent(between_share(*r), 0), strain_words(r->value_or_nan(quantity::onset_strain)));
+  const std::string broke =
+      count(r->value(quantity::cracks_intra_tension) + r->value(quantity::cracks_inter_tension)) + " springs broke";
+  const std::string first = "the first at " + at_strain(*r, r->value_or_nan(quantity::onset_strain));
+  if (test == "extension" && r->has(quantity::crossing_fractures)) {
+    const double through = r->value(quantity::crossing_fractures);
+    content.agreement = through > 0 ? Agreement::agrees : Agreement::undecided;
+    content.finding = fmt::format("{}, {}; {} through the layer.", broke, first,
+                                  through == 1 ? "one fracture runs" : count(through) + " fractures run");
+    return content;
+  }
+  content.finding = fmt::format("{}, {} of them at {}; {}.", broke, percent(between_share(*r), 0),
+                                uniform_layer(*r) ? "the layer’s edges" : "grain boundaries", first);
+  const auto along = [&](const dem::Quantity& share) {
+    if (r->has(share)) content.agreement = mainly(r->value(share), third);
+  };
+  if (test == "growth") along(quantity::radial_share);
+  if (test == "compression" || test == "pure_shear") along(quantity::along_compression_share);
+  if (test == "pure_shear" && content.agreement == Agreement::agrees)
+    content.agreement = mainly(between_share(*r), 0);  // chance depends on the grains
   return content;
 }
 
 FigureContent rose_of_fractures(const StudyResult& study) {
   FigureContent content;
   std::vector<std::string> said;
+  double least = 1, most = 0;
+  std::vector<const dem::Record*> shown;
   for (const dem::Record* r : records_of(study)) {
-    if (r->text("solver") != "converged" || !r->has(quantity::along_compression_share)) continue;
-    content.expected = true;
-    content.statement = "Fractures run parallel to the compression.";
-    const auto angles = trends_of(*r);
+    if (r->text("solver") == "converged" && r->has(quantity::along_compression_share)) shown.push_back(r);
+  }
+  if (shown.empty()) return content;
+  content.expected = true;
+  content.statement = "Fractures run parallel to the compression.";
+  const int per_row = shown.size() == 3 ? 3 : 2;  // three beside each other, so that none stands alone
+  for (const dem::Record* r : shown) {
+    const auto angles = known(r->table("cracks").real("trend"));
     if (angles.empty()) continue;
     const double share = r->value_or_nan(quantity::along_compression_share);
     const std::string label = label_of(*r, study);
     content.panels.push_back(
         {.id = r->case_id,
          .caption = fmt::format(
-             "Trend of the fracture at each of {} broken springs, {}. The area of a sector is its count; the outer "
+             "Trend of the fracture at each of {} broken springs{}. The area of a sector is its count; the outer "
              "circle is that of the fullest sector.",
-             count(static_cast<double>(angles.size())), label),
+             count(static_cast<double>(angles.size())), label == "this run" ? "" : ", " + label),
          .alt = fmt::format("{} of the trends lie within 30° of the compression.", percent(share, 0)),
-         .content =
-             rose(angles, r->text("test") == "compression" ? 0.0 : std::numbers::pi / 2, "direction of compression"),
-         .per_row = 2});
-    said.push_back(fmt::format("{}: {}", label, percent(share, 0)));
+         .content = rose(angles, r->text("test") == "compression" ? 0.0 : std::numbers::pi / 2,
+                         "direction of compression", render::page_width / per_row),
+         .per_row = per_row});
+    said.push_back(percent(share, 0) + (label == "this run" ? "" : " (" + label + ")"));
+    least = std::min(least, share);
+    most = std::max(most, share);
   }
   if (!said.empty()) {
-    content.finding = "Share of trends within 30° of the compression (by chance a third): " + joined(said, "; ") + ".";
+    content.finding = listed(said) + " of the trends lie within 30° of the compression (by chance a third).";
+    const Agreement low = mainly(least, third), high = mainly(most, third);
+    content.agreement = low == high ? low : Agreement::undecided;
   }
   return content;
 }
@@ -210,6 +236,7 @@ FigureContent radial_fractures(const StudyResult& study) {
        .per_row = 1});
   content.finding = fmt::format("{} of {} trends lie within 30° of the radius (by chance a third).", percent(share, 0),
                                 count(static_cast<double>(angles.size())));
+  content.agreement = mainly(share, third);
   return content;
 }
 
@@ -248,8 +275,9 @@ FigureContent spacing(const StudyResult& study) {
   panel("number", "crossing_fractures", "Fractures through the layer",
         "Fractures that reach across four fifths of the layer's rows or more.");
   panel("spacing", "spacing_over_thickness", "Mean spacing over layer thickness", "Their mean spacing.");
-  content.finding = fmt::format("{} fractures cross the layer at a strain of {}", count(last),
-                                strain_words(r->value(quantity::final_strain)));
+  content.finding =
+      fmt::format("{} the layer at {}", last == 1 ? "One fracture crosses" : count(last) + " fractures cross",
+                  at_strain(*r, r->value(quantity::final_strain)));
   if (r->has(quantity::spacing_over_thickness)) {
     content.finding += fmt::format("; their mean spacing is {} layer thicknesses",
                                    number(r->value(quantity::spacing_over_thickness), 3));
@@ -260,6 +288,15 @@ FigureContent spacing(const StudyResult& study) {
                                    percent(r->value(quantity::spacing_scatter_chance), 0));
   }
   content.finding += ".";
+  const auto spacing = known(h.real("spacing_over_thickness"));
+  if (spacing.size() > 1) {
+    constexpr double about = 2;  // thicknesses
+    content.agreement = spacing.back() >= spacing.front() ? Agreement::disagrees
+                        : spacing.back() <= about         ? Agreement::agrees
+                                                          : Agreement::undecided;
+    if (content.agreement == Agreement::undecided)
+      content.finding += " It falls, but has not come down to the thickness.";
+  }
   return content;
 }
 

@@ -1,6 +1,7 @@
 // The model itself: six neighbours, the deformation box, the order of work, grains under the particles.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "reports/figures/sheet/parts.h"
@@ -83,7 +84,7 @@ FigureContent neighbours(const StudyResult& study) {
     return std::string(i == middle ? "#e69f00" : distance < 2.2 * l.radius ? "#f3d9a4" : std::string(particle_fill));
   });
   content.panels.push_back({.id = "",
-                            .caption = "Part of the model: a particle (dark), its six neighbours, and the springs.",
+                            .caption = "Part of the model: a particle, its six neighbours, and the springs.",
                             .alt = "A patch of 25 discs in rows; one is joined to six neighbours by springs.",
                             .content = d.finish_with_key({{"#e69f00", "a particle", false},
                                                           {"#f3d9a4", "its six neighbours", false},
@@ -100,6 +101,7 @@ FigureContent box(const StudyResult& study) {
   content.statement =
       "The outer rows are wall particles: fixed across the boundary, free to move along it, so that the walls have no "
       "friction.";
+  content.rows = {"sheet_free_slip"};
   const dem::Record* r = main_record(study);
   if (!r) return content;
   const Layout l = layout_of(*r);
@@ -113,6 +115,10 @@ FigureContent box(const StudyResult& study) {
                             .content = corner.finish_with_key({{std::string(wall_fill), "wall particles", false},
                                                                {std::string(particle_fill), "the sheet", false}}),
                             .per_row = 2});
+  content.finding =
+      fmt::format("{} of {} particles are wall particles.",
+                  count(static_cast<double>(std::ranges::count_if(p.fixed, [](int f) { return f != 0; }))),
+                  count(r->value(quantity::particles)));
   Picture whole;
   render::Spheres spheres;
   for (std::size_t i = 0; i < p.grain.size(); ++i) {
@@ -238,8 +244,12 @@ FigureContent elle_layer(const StudyResult& study) {
                             .alt = "Polygon edges with nodes cross a patch of discs that are coloured by grain.",
                             .content = d.finish_with_key({{"#c03020", "outlines of grains, with their nodes", true}}),
                             .per_row = 2});
-  content.finding = fmt::format("{} grains hold {} particles.", count(r->value(quantity::grains)),
-                                count(r->value(quantity::particles)));
+  const double grains = r->value(quantity::grains);
+  const std::string holders =
+      uniform_layer(*r) ? "The layer and the matrix on both sides of it"
+      : layered(*r)     ? "The " + count(grains - 2) + " grains of the layer and the matrix on both sides of it"
+                        : count(grains) + " grains";
+  content.finding = fmt::format("{} hold {} particles.", holders, count(r->value(quantity::particles)));
   return content;
 }
 

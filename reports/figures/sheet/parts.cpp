@@ -192,8 +192,11 @@ std::string fracture_map(const dem::Record& record, double strain, double width)
   d.raw(fmt::format("<rect x=\"0.5\" y=\"0.5\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#555\"/>",
                     width - 1, (high - low) * d.scale() - 1));
   const auto n = crack_counts(record, strain);
-  std::vector<KeyItem> key{{std::string(intra_colour), fmt::format("inside grains: {}", count(n[0])), true},
-                           {std::string(inter_colour), fmt::format("at boundaries: {}", count(n[1])), true}};
+  const bool uniform = uniform_layer(record);
+  std::vector<KeyItem> key{
+      {std::string(intra_colour), fmt::format("{}: {}", uniform ? "inside" : "inside grains", count(n[0])), true},
+      {std::string(inter_colour),
+       fmt::format("{}: {}", uniform ? "at the layer’s edges" : "at boundaries", count(n[1])), true}};
   bool any = false;
   for (std::size_t g = 0; g < outlines.size(); ++g) any = any || marked(record, g);
   if (any) key.push_back({std::string(marked_fill), layered(record) ? "layer" : "growing grains", false});
@@ -209,6 +212,27 @@ std::array<int, 2> crack_counts(const dem::Record& record, double strain) {
     if (at[c] <= strain * (1 + 1e-9)) ++n[static_cast<std::size_t>(between[c])];
   }
   return n;
+}
+
+bool uniform_layer(const dem::Record& record) {
+  constexpr double alone = 3;  // the layer and the matrix on both sides of it
+  return layered(record) && record.value(quantity::grains) <= alone;
+}
+
+std::string crack_words(const dem::Record& record, double strain) {
+  const auto n = crack_counts(record, strain);
+  const bool uniform = uniform_layer(record);
+  return fmt::format("{} broken {} inside{}, {} at {}", count(n[0]), n[0] == 1 ? "spring" : "springs",
+                     uniform ? "" : " grains", count(n[1]), uniform ? "the layer’s edges" : "boundaries");
+}
+
+std::string at_strain(const dem::Record& record, double strain) {
+  return (record.text("test") == "growth" ? "a growth of " : "a strain of ") + number(100 * strain, 3) + " %";
+}
+
+Agreement mainly(double share, double chance) {
+  constexpr double most = 0.5;
+  return share >= most ? Agreement::agrees : share <= chance ? Agreement::disagrees : Agreement::undecided;
 }
 
 std::vector<std::pair<std::string, double>> snapshots_of(const dem::Record& record) {

@@ -68,6 +68,14 @@ bool layered(const dem::Record& record);
 
 /// Cracks up to a strain over the grain outlines, intra and inter grain by colour.
 std::string fracture_map(const dem::Record& record, double strain, double width);
+/// "13 broken springs inside grains, 2 at boundaries" up to a strain, in the words of the sheet's own map.
+std::string crack_words(const dem::Record& record, double strain);
+/// True for a layer that is not made of grains: nothing in it is a boundary between grains.
+bool uniform_layer(const dem::Record& record);
+/// "a strain of 0.400 %", "a growth of 0.400 %": how far a run had come.
+std::string at_strain(const dem::Record& record, double strain);
+/// Agrees above a half, disagrees below what chance gives.
+Agreement mainly(double share, double chance);
 /// Number of cracks up to a strain: {intra, inter}.
 std::array<int, 2> crack_counts(const dem::Record& record, double strain);
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <functional>
+#include <optional>
 #include <set>
 
 #include "reports/figures/sheet/parts.h"
@@ -40,7 +42,7 @@ render::Chart stress_chart(const dem::Record& r) {
   xx.colour = render::palette(5), yy.colour = render::palette(4);
   yy.line = render::Line::dash;
   chart.series = {xx, yy};
-  chart.legend = render::Chart::Legend::below;
+  chart.legend = render::Chart::Legend::bottom_left;
   chart.height = 320;
   return chart;
 }
@@ -130,7 +132,7 @@ Panel field_panel(const dem::Record& r, const std::string& table, double strain,
   p.scene.height = 900;
   p.scene.axes = true;
   p.scale_bar = false;
-  p.label = fmt::format("{} at {} %", field.words, number(100 * strain, 3));
+  p.label = field.words + " at " + at_strain(r, strain);
   p.scene.bar = render::ColourBar{.title = field.words + (field.has_sign ? " (10⁻³ k), tension positive" : " (10⁻³ k)"),
                                   .low = 1e3 * field.low,
                                   .high = 1e3 * field.high,
@@ -139,10 +141,26 @@ Panel field_panel(const dem::Record& r, const std::string& table, double strain,
   const auto range = std::minmax_element(value.begin(), value.end());
   return {
       .id = field.column + fmt::format("_{}", table.substr(table.size() - 4)),
-      .caption = fmt::format("{}; colours cover all but the outermost hundredth of the particles.", field.words),
+      .caption = fmt::format("{}; the colours span all values but the most extreme hundredth.", field.words),
       .alt = fmt::format("Values go from {} to {} in units of k.", number(*range.first, 2), number(*range.second, 2)),
       .content = p,
       .per_row = 2};
+}
+
+// Whether springs break later and tension falls more in one step the narrower their strengths are distributed.
+std::optional<Agreement> abruptness_agrees(const StudyResult& study) {
+  std::vector<const dem::Record*> along;
+  for (const dem::Record* r : records_of(study)) {
+    if (r->text("test") == "pure_shear" && r->text("solver") == "converged" && r->has(quantity::onset_strain))
+      along.push_back(r);
+  }
+  std::ranges::sort(along, {}, [](const dem::Record* r) { return r->number("spread"); });
+  if (along.size() < 2 || along.front()->number("spread") == along.back()->number("spread")) return std::nullopt;
+  const auto falls = [&](const dem::Quantity& of) {
+    return std::ranges::is_sorted(along, std::greater{}, [&](const dem::Record* r) { return r->value_or_nan(of); });
+  };
+  const bool early = falls(quantity::onset_strain), gradual = falls(quantity::largest_drop_share);
+  return early && gradual ? Agreement::agrees : early || gradual ? Agreement::undecided : Agreement::disagrees;
 }
 
 }  // namespace
@@ -156,7 +174,7 @@ FigureContent stress_strain(const StudyResult& study) {
                           ? "A sheet with a narrow distribution of strengths fails abruptly; one with a wide "
                             "distribution cracks early and fails gradually."
                           : "";
-  std::vector<std::string> said;
+  std::vector<std::string> first, worst, falls, unbroken;
   for (const dem::Record* r : records_of(study)) {
     const std::string label = label_of(*r, study);
     content.panels.push_back(
@@ -175,23 +193,28 @@ FigureContent stress_strain(const StudyResult& study) {
                             count(r->value(quantity::cracks_intra_tension) + r->value(quantity::cracks_inter_tension))),
          .content = breaks_chart(*r),
          .per_row = 2});
-    const std::string start = label == "this run" ? std::string() : label + ": ";
+    const std::string where = label == "this run" ? "" : " (" + label + ")";
     if (!r->has(quantity::onset_strain)) {
-      said.push_back(start + "no spring broke");
+      unbroken.push_back(label);
       continue;
     }
-    std::string words = fmt::format("{}first break at {} %; {} of all breaks fall in the worst load step", start,
-                                    number(100 * r->value(quantity::onset_strain), 3),
-                                    percent(r->value_or_nan(quantity::worst_step_share), 0));
-    if (r->value_or_nan(quantity::largest_drop_share) > 0) {
-      words += fmt::format(", which loses {} of the largest tension on the walls",
-                           percent(r->value(quantity::largest_drop_share), 0));
-    }
-    said.push_back(words);
+    first.push_back(fmt::format("{} %{}", number(100 * r->value(quantity::onset_strain), 3), where));
+    worst.push_back(percent(r->value_or_nan(quantity::worst_step_share), 0) + where);
+    if (r->value_or_nan(quantity::largest_drop_share) > 0)
+      falls.push_back(percent(r->value(quantity::largest_drop_share), 0) + where);
   }
-  std::string words = joined(said, "; ") + ".";
-  words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
-  content.finding = words;
+  std::vector<std::string> said;
+  if (!first.empty()) {
+    const bool growth = main->text("test") == "growth";
+    said.push_back(fmt::format("The first spring breaks at a {} of {}.", growth ? "growth" : "strain", listed(first)));
+    said.push_back("The worst load step has " + listed(worst) + " of all breaks.");
+  }
+  if (!falls.empty())
+    said.push_back("In one load step the walls lose at most " + listed(falls) + " of their largest tension.");
+  if (!unbroken.empty())
+    said.push_back("No spring broke" + (unbroken.front() == "this run" ? "" : ": " + listed(unbroken)) + ".");
+  content.finding = joined(said, " ");
+  content.agreement = abruptness_agrees(study);
   return content;
 }
 
@@ -255,12 +278,10 @@ FigureContent energy(const StudyResult& study) {
          .alt = fmt::format("Work, elastic energy and released energy agree to {} of the work.", number(residual, 2)),
          .content = chart,
          .per_row = 2});
-    said.push_back(label == "this run" ? number(residual, 2) : fmt::format("{}: {}", label, number(residual, 2)));
+    said.push_back(number(residual, 2) + (label == "this run" ? "" : " (" + label + ")"));
   }
   if (!said.empty())
-    content.finding =
-        "Work that is neither stored in springs nor released by breaking and jumps, as a share of the work: " +
-        joined(said, "; ") + ".";
+    content.finding = listed(said) + " of the work is neither stored in springs nor released by breaking and jumps.";
   return content;
 }
 
@@ -298,7 +319,7 @@ FigureContent solvers(const StudyResult& study) {
         note_panel("", "Both solvers.", "This study has no pair of cases made with both solvers."));
     return content;
   }
-  TextTable table{{"", "converged", "historical"}, {}};
+  TextTable table{{"Quantity", "converged", "historical"}, {}};
   const auto row = [&](const char* words, const dem::Quantity& of, auto text) {
     table.rows.push_back({words, text(ours->value_or_nan(of)), text(theirs->value_or_nan(of))});
   };
@@ -309,8 +330,8 @@ FigureContent solvers(const StudyResult& study) {
   row("Strain at the first break (%)", quantity::onset_strain, [](double v) { return number(100 * v, 3); });
   row("Peak differential stress (k)", quantity::peak_differential_stress, [](double v) { return number(v, 4); });
   row("Strain at the peak (%)", quantity::strain_at_peak, [](double v) { return number(100 * v, 3); });
-  table.rows.push_back(
-      {"Share at grain boundaries", percent(between_share(*ours), 1), percent(between_share(*theirs), 1)});
+  table.rows.push_back({"Share at grain boundaries (%)", number(100 * between_share(*ours), 3),
+                        number(100 * between_share(*theirs), 3)});
   row("Largest unbalanced over largest spring force", quantity::unbalanced_force,
       [](double v) { return number(v, 2); });
   row("Energy unaccounted for, share of the work", quantity::energy_residual, [](double v) { return number(v, 2); });
@@ -329,19 +350,18 @@ FigureContent solvers(const StudyResult& study) {
   const double both = a.empty() ? 0.0 : 2.0 * static_cast<double>(shared) / static_cast<double>(a.size());
   table.rows.push_back(
       {"Springs broken in both", count(static_cast<double>(shared)), count(static_cast<double>(shared))});
-  content.panels.push_back(
-      {.id = "numbers", .caption = "One sheet, two solvers.", .alt = "", .content = table, .per_row = 1});
   const double strain = std::min(ours->value(quantity::final_strain), theirs->value(quantity::final_strain));
   for (const dem::Record* r : {ours, theirs}) {
     const auto n = crack_counts(*r, strain);
-    content.panels.push_back(
-        {.id = r->text("solver"),
-         .caption = fmt::format("Fractures at {} %, {}: {} inside grains, {} between.", number(100 * strain, 3),
-                                words(r->text("solver")), count(n[0]), count(n[1])),
-         .alt = fmt::format("Map of {} broken springs.", count(n[0] + n[1])),
-         .content = fracture_map(*r, strain, render::column_width),
-         .per_row = 2});
+    content.panels.push_back({.id = r->text("solver"),
+                              .caption = fmt::format("Fractures at {}, {}: {}.", at_strain(*r, strain),
+                                                     words(r->text("solver")), crack_words(*r, strain)),
+                              .alt = fmt::format("Map of {} broken springs.", count(n[0] + n[1])),
+                              .content = fracture_map(*r, strain, render::column_width),
+                              .per_row = 2});
   }
+  content.panels.push_back(
+      {.id = "numbers", .caption = "One sheet, two solvers.", .alt = "", .content = table, .per_row = 1});
   content.finding = fmt::format(
       "The historical sweep stops when no particle moves by more than 1.4 × 10⁻⁷ of the box in a sweep; the converged "
       "solver stops at force equilibrium. {}; {} of the springs that break with the converged solver also break with "
