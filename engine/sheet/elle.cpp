@@ -446,13 +446,9 @@ std::string elle_text(const ElleMap& map) {
   return out;
 }
 
-std::vector<Point> outline(const ElleMap& map, std::size_t index) {
-  std::unordered_map<int, Point> places;
-  const ElleFlynn& flynn = map.flynns[index];
-  const std::set<int> wanted(flynn.nodes.begin(), flynn.nodes.end());
-  for (const auto& node : map.nodes) {
-    if (wanted.contains(node.id)) places.emplace(node.id, node.place);
-  }
+namespace {
+
+std::vector<Point> outline(const ElleMap& map, const ElleFlynn& flynn, const std::unordered_map<int, Point>& places) {
   const Point size{map.high[0] - map.low[0], map.high[1] - map.low[1]};
   const auto nearest = [&](const Point& to, const Point& from) {
     Point p = to;
@@ -482,6 +478,16 @@ std::vector<Point> outline(const ElleMap& map, std::size_t index) {
                      "an outline closes on itself, with no step longer than half the cell");
   }
   return points;
+}
+
+}  // namespace
+
+std::vector<std::vector<Point>> outlines(const ElleMap& map) {
+  std::unordered_map<int, Point> places;
+  for (const auto& node : map.nodes) places.emplace(node.id, node.place);
+  std::vector<std::vector<Point>> all;
+  for (const ElleFlynn& flynn : map.flynns) all.push_back(outline(map, flynn, places));
+  return all;
 }
 
 double area(const std::vector<Point>& p) {

@@ -74,9 +74,9 @@ ElleMap parse_elle(std::string_view text, const std::string& name);
 /// The map as a file's text: what was read comes back with the same polygons, attributes and options.
 std::string elle_text(const ElleMap& map);
 
-/// A flynn's outline with the cell's periodicity undone: each point is the image nearest to the one before.
+/// The outline of each flynn with the cell's periodicity undone: each point is the image nearest to the one before.
 /// Throws InputError (with the flynn's line) for an outline that runs right across the cell or lies far outside it.
-std::vector<Point> outline(const ElleMap& map, std::size_t flynn);
+std::vector<std::vector<Point>> outlines(const ElleMap& map);
 double area(const std::vector<Point>& outline);  ///< positive counter-clockwise
 
 }  // namespace dem::sheet

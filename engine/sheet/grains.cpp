@@ -3,11 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <map>
 
+#include "engine/core/cell_grid.h"
 #include "engine/core/errors.h"
 #include "engine/core/random.h"
 
@@ -16,23 +18,31 @@ namespace {
 
 using Outline = std::vector<Point>;
 
-// The part of a convex outline on the side of a that is nearer to a than to b.
-Outline nearer(const Outline& outline, const Point& a, const Point& b) {
-  const double nx = b[0] - a[0], ny = b[1] - a[1];
-  const double level = 0.5 * (b[0] * b[0] + b[1] * b[1] - a[0] * a[0] - a[1] * a[1]);
-  Outline kept;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Point& p = outline[i];
-    const Point& q = outline[(i + 1) % outline.size()];
-    const double sp = nx * p[0] + ny * p[1] - level, sq = nx * q[0] + ny * q[1] - level;
-    if (sp <= 0) kept.push_back(p);
-    if ((sp < 0 && sq > 0) || (sp > 0 && sq < 0)) {
-      const double t = sp / (sp - sq);
-      kept.push_back({p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])});
+// Takes from a convex outline what is nearer to b than to a. Most cuts take nothing.
+class Cutter {
+ public:
+  void cut(Outline& outline, const Point& a, const Point& b) {
+    const double nx = b[0] - a[0], ny = b[1] - a[1];
+    const double level = 0.5 * (b[0] * b[0] + b[1] * b[1] - a[0] * a[0] - a[1] * a[1]);
+    const auto beyond = [&](const Point& p) { return nx * p[0] + ny * p[1] - level; };
+    if (std::all_of(outline.begin(), outline.end(), [&](const Point& p) { return beyond(p) <= 0; })) return;
+    kept_.clear();
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const Point& p = outline[i];
+      const Point& q = outline[(i + 1) % outline.size()];
+      const double sp = beyond(p), sq = beyond(q);
+      if (sp <= 0) kept_.push_back(p);
+      if ((sp < 0 && sq > 0) || (sp > 0 && sq < 0)) {
+        const double t = sp / (sp - sq);
+        kept_.push_back({p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])});
+      }
     }
+    std::swap(outline, kept_);
   }
-  return kept;
-}
+
+ private:
+  Outline kept_;
+};
 
 // The square of the distance beyond which no centre cuts a cell: twice that of its furthest corner, and rounding.
 double reach_of(const Outline& cell, const Point& c) {
@@ -43,8 +53,67 @@ double reach_of(const Outline& cell, const Point& c) {
   return 4 * furthest * (1 + 1e-9);
 }
 
+// The square of the distance of two centres, or of the nearest images of them.
+double square_apart(const Point& a, const Point& b, const VoronoiSettings& s) {
+  double x = std::fabs(a[0] - b[0]), y = std::fabs(a[1] - b[1]);
+  if (s.periodic) x = std::min(x, std::fabs(1 - x)), y = std::min(y, std::fabs(s.height - y));
+  return x * x + y * y;
+}
+
+// Which centres may cut a cell. They cut in their order, which decides last bits: the first ones all, and when these have made
+// the cell small, of the others those near it.
+class Cutters {
+ public:
+  Cutters(const std::vector<Point>& centres, const VoronoiSettings& s)
+      : centres_(centres),
+        settings_(s),
+        first_(std::min(centres.size(), static_cast<std::size_t>(14 * std::sqrt(centres.size())))),
+        edge_(3 * std::sqrt(s.height / static_cast<double>(first_))),
+        grid_(centres.size(), edge_, [&](std::size_t i) { return place(centres[i]); }) {}
+
+  [[nodiscard]] std::size_t first() const { return first_; }
+  /// Of the others all whose distance squared is at most `reach`, in their order.
+  const std::vector<std::size_t>& near(const Point& c, double reach) {
+    near_.clear();
+    if (reach > edge_ * edge_) {
+      for (std::size_t j = first_; j < centres_.size(); ++j) near_.push_back(j);
+      return near_;
+    }
+    for (const double x : images(c[0], 1)) {
+      for (const double y : images(c[1], settings_.height)) {
+        grid_.around(place({x, y}), [&](std::int32_t other) {
+          const auto j = static_cast<std::size_t>(other);
+          if (j >= first_ && square_apart(centres_[j], c, settings_) <= reach) near_.push_back(j);
+        });
+      }
+    }
+    std::sort(near_.begin(), near_.end());
+    near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
+    return near_;
+  }
+
+ private:
+  static std::array<double, 3> place(const Point& p) { return {p[0], p[1], 0}; }
+  // Those of a place that lie within an edge of the box.
+  [[nodiscard]] std::vector<double> images(double at, double period) const {
+    std::vector<double> found{at};
+    if (settings_.periodic && at < edge_) found.push_back(at + period);
+    if (settings_.periodic && at > period - edge_) found.push_back(at - period);
+    return found;
+  }
+
+  const std::vector<Point>& centres_;
+  const VoronoiSettings& settings_;
+  std::size_t first_;
+  double edge_;
+  CellGrid grid_;
+  std::vector<std::size_t> near_;
+};
+
 std::vector<Outline> cells(const std::vector<Point>& centres, const VoronoiSettings& s) {
+  Cutters cutters(centres, s);
   std::vector<Outline> result;
+  Cutter cutter;
   for (std::size_t i = 0; i < centres.size(); ++i) {
     const Point& c = centres[i];
     Outline cell = s.periodic ? Outline{{c[0] - 1, c[1] - s.height},
@@ -54,18 +123,18 @@ std::vector<Outline> cells(const std::vector<Point>& centres, const VoronoiSetti
                               : Outline{{0, 0}, {1, 0}, {1, s.height}, {0, s.height}};
     const int images = s.periodic ? 1 : 0;
     double reach = reach_of(cell, c);
-    for (std::size_t j = 0; j < centres.size(); ++j) {
-      double x = std::fabs(centres[j][0] - c[0]), y = std::fabs(centres[j][1] - c[1]);
-      if (s.periodic) x = std::min(x, std::fabs(1 - x)), y = std::min(y, std::fabs(s.height - y));
-      if (x * x + y * y > reach) continue;
+    const auto cut_by = [&](std::size_t j) {
+      if (square_apart(centres[j], c, s) > reach) return;
       for (int sx = -images; sx <= images; ++sx) {
         for (int sy = -images; sy <= images; ++sy) {
           if (i == j && sx == 0 && sy == 0) continue;
-          cell = nearer(cell, c, {centres[j][0] + sx, centres[j][1] + sy * s.height});
+          cutter.cut(cell, c, {centres[j][0] + sx, centres[j][1] + sy * s.height});
         }
       }
       reach = reach_of(cell, c);
-    }
+    };
+    for (std::size_t j = 0; j < cutters.first(); ++j) cut_by(j);
+    for (const std::size_t j : cutters.near(c, reach)) cut_by(j);
     result.push_back(std::move(cell));
   }
   return result;
@@ -262,8 +331,9 @@ TooFewInside::TooFewInside(int found, int wanted)
 
 void mark_expanding(ElleMap& map, int count, const std::string& mineral, std::uint64_t seed) {
   std::vector<int> inner;
-  for (std::size_t f = 0; f < map.flynns.size(); ++f) {
-    const Outline cell = outline(map, f);
+  const std::vector<Outline> cells = outlines(map);
+  for (std::size_t f = 0; f < cells.size(); ++f) {
+    const Outline& cell = cells[f];
     const double margin = 0.02 * (map.high[0] - map.low[0]);
     const bool inside = std::all_of(cell.begin(), cell.end(), [&](const Point& p) {
       return p[0] > map.low[0] + margin && p[0] < map.high[0] - margin && p[1] > map.low[1] + margin &&
@@ -351,12 +421,9 @@ std::size_t most(const std::vector<int>& counts) {
 Cover cover(const ElleMap& map, const Sheet& sheet) {
   const double width = map.high[0] - map.low[0], height = map.high[1] - map.low[1];
   const std::size_t flynns = map.flynns.size();
-  std::vector<Outline> outlines;
+  const std::vector<Outline> outlines = sheet::outlines(map);
   std::vector<double> areas;
-  for (std::size_t f = 0; f < flynns; ++f) {
-    outlines.push_back(outline(map, f));
-    areas.push_back(area(outlines.back()));
-  }
+  for (const Outline& outline : outlines) areas.push_back(area(outline));
   const Sense sense = sense_of(areas, width * height);
   Cover result;
   result.flynn.assign(static_cast<std::size_t>(sheet.particles()), -1);

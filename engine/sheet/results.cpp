@@ -62,8 +62,9 @@ void add_grains(Record& record, const Specimen& specimen) {
   std::vector<std::int32_t> of;
   std::vector<double> points;
   const double scale = 1 / (specimen.map.high[0] - specimen.map.low[0]);
-  for (std::size_t f = 0; f < specimen.map.flynns.size(); ++f) {
-    for (const Point& p : outline(specimen.map, f)) {
+  const std::vector<std::vector<Point>> cells = sheet::outlines(specimen.map);
+  for (std::size_t f = 0; f < cells.size(); ++f) {
+    for (const Point& p : cells[f]) {
       of.push_back(static_cast<std::int32_t>(f));
       points.insert(points.end(), {scale * (p[0] - specimen.map.low[0]), scale * (p[1] - specimen.map.low[1])});
     }

@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
                                 if (column && !column.section->values.empty())
                                   (void)column.part(column.section->values.front().second);
                               }
-                              for (std::size_t f = 0; f < map.flynns.size(); ++f) (void)area(outline(map, f));
+                              for (const auto& outline : dem::sheet::outlines(map)) (void)area(outline);
                               if (asked && !map.unodes.empty()) (void)nearest_unodes(map, sheet);
                               (void)cover(map, sheet);
                               (void)parse_elle(elle_text(map), "again.elle");  // what was read comes back
