@@ -11,6 +11,9 @@ std::span<const Quantity> quantities() {
                                        brazilian_strength,
                                        first_cracks_middle,
                                        first_cracks_band,
+                                       modulus_of_rupture,
+                                       fracture_toughness,
+                                       mouth_opening,
                                        shear_strength,
                                        residual_shear,
                                        dilation_at_peak,
@@ -57,9 +60,9 @@ std::span<const Quantity> quantities() {
 
 std::span<const Parameter> parameters() {
   using namespace parameter;
-  static constexpr std::array declared{
-      aspect_ratio,       dip,       seed_scale,    growth, between, pressure_ratio, mineral,
-      confining_pressure, jaw_ratio, normal_stress, seed};
+  static constexpr std::array declared{aspect_ratio,   dip,     seed_scale,         growth,    between,
+                                       pressure_ratio, mineral, confining_pressure, jaw_ratio, notch,
+                                       normal_stress,  seed};
   return declared;
 }
 

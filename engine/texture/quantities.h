@@ -13,7 +13,8 @@ using dem::quantity::measured, dem::quantity::scattered;
 
 // Scatter: of the granite at draft scale (docs/notes/texture-and-seed.md).
 
-inline constexpr std::string_view loaded = "compression direct_tension brazilian direct_shear unloading_loops";
+inline constexpr std::string_view loaded =
+    "compression direct_tension brazilian bending semicircular_bending direct_shear unloading_loops";
 /// Those of a cylinder that is stretched or shortened along its axis.
 inline constexpr std::string_view stretched = "compression direct_tension unloading_loops";
 inline constexpr std::string_view shortened = "compression unloading_loops";
@@ -56,6 +57,31 @@ inline constexpr Quantity first_cracks_band{.id = "first_cracks.band",
                                                 "Share of the same cracks within a quarter of the radius of the plane "
                                                 "through both loads; 31 % of cracks spread "
                                                 "evenly are there."};
+inline constexpr Quantity modulus_of_rupture{
+    .id = "modulus_of_rupture",
+    .name = "Modulus of rupture",
+    .symbol = "σ_R",
+    .unit = "MPa",
+    .tests = "bending",
+    .meaning = "3PS/(2bW²) of the largest load P on a bar without a notch; span S, width b, depth W."};
+inline constexpr Quantity fracture_toughness{
+    .id = "fracture_toughness",
+    .name = "Fracture toughness",
+    .symbol = "K_Ic",
+    .unit = "MPa√m",
+    .tests = "bending semicircular_bending",
+    .meaning =
+        "Stress intensity at the tip of the notch at the largest load: ASTM E399 for a bar in three-point bending, "
+        "Kuruppu et al. 2014 for a half disc."};
+inline constexpr Quantity mouth_opening{
+    .id = "mouth_opening",
+    .name = "Notch opening at the largest load",
+    .symbol = "CMOD",
+    .unit = "µm",
+    .tests = "bending semicircular_bending",
+    .meaning =
+        "Distance that both sides of the notch have moved apart at the lower face, by a line "
+        "through the displacements of the particles near it."};
 inline constexpr Quantity shear_strength{.id = "shear_strength",
                                          .name = "Peak shear strength",
                                          .symbol = "τ_p",
@@ -357,6 +383,14 @@ inline constexpr Parameter jaw_ratio{.id = "jaw_ratio",
                                      .axis = true,
                                      .words = "the jaw ratio",
                                      .step = "unit of the jaw ratio"};
+inline constexpr Parameter notch{.id = "notch",
+                                 .name = "Depth of the notch over that of the bar",
+                                 .symbol = "a/W",
+                                 .in_ids = "notch",
+                                 .key = "bending.notch",
+                                 .axis = true,
+                                 .words = "the depth of the notch",
+                                 .step = "depth of the bar"};
 inline constexpr Parameter normal_stress{.id = "normal_stress",
                                          .name = "Normal stress σₙ",
                                          .symbol = "σₙ",

@@ -73,6 +73,8 @@ std::span<const Figure> figures() {
       {"brazilian_strengths", "Tensile strength by two tests", "Perras & Diederichs 2014, Geotech Geol Eng 32:525–546",
        "grain_texture", texture::brazilian_strengths},
       {"brazilian_cracks", "Where a disc splits", "", "grain_texture", texture::brazilian_cracks},
+      {"bending_test", "Three-point bending", "", "grain_texture", texture::bending_test},
+      {"half_disc_test", "Bending of half discs", "", "grain_texture", texture::half_disc_test},
       {"direct_shear_test", "Direct shear", "", "grain_texture", texture::direct_shear_test},
       {"direct_shear_envelope", "Mohr-Coulomb lines of direct shear", "", "grain_texture",
        texture::direct_shear_envelope},

@@ -44,6 +44,8 @@ FigureContent open_readings(const StudyResult& study);
 FigureContent brazilian_test(const StudyResult& study);
 FigureContent brazilian_strengths(const StudyResult& study);
 FigureContent brazilian_cracks(const StudyResult& study);
+FigureContent bending_test(const StudyResult& study);
+FigureContent half_disc_test(const StudyResult& study);
 FigureContent direct_shear_test(const StudyResult& study);
 FigureContent direct_shear_envelope(const StudyResult& study);
 FigureContent unloading_loops_test(const StudyResult& study);

@@ -41,8 +41,8 @@ dem::Scenario my_rock(const std::vector<std::string>& set) {
 
 TEST_CASE("the tests of a scenario are those of the table, and an unknown one is an error that names them") {
   const auto choices = std::ranges::find(keys(), "tests", &dem::Key::path)->choices;
-  CHECK(choices == std::vector<std::string>{"compression", "direct_tension", "brazilian", "direct_shear",
-                                            "unloading_loops", "genesis"});
+  CHECK(choices == std::vector<std::string>{"compression", "direct_tension", "brazilian", "bending",
+                                            "semicircular_bending", "direct_shear", "unloading_loops", "genesis"});
   for (const TestEntry& entry : tests()) {
     const Test test = entry.read(my_rock({}));
     CHECK(test.name == entry.name);

@@ -1,4 +1,4 @@
-// Bodies that are cut out of packings, round faces and the gauge of a notch; direct shear, loops of unloading.
+// Bodies that are cut out of packings, jaws and the gauge of a notch; direct shear, loops of unloading.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "engine/texture/genesis/body.h"
 #include "engine/texture/keys.h"
 #include "engine/texture/laws/wall_contact.h"
+#include "engine/texture/loading/bending.h"
 #include "engine/texture/loading/brazilian.h"
 #include "engine/texture/loading/direct_shear.h"
 #include "engine/texture/loading/loading.h"
@@ -82,7 +83,9 @@ TEST_CASE("a body knows its volume and what belongs to it") {
 }
 
 TEST_CASE("what is cut out of a packing lies in its box, holds together, and has its notch") {
-  for (const Test& test : {brazilian(9e-3, 5e-3)}) {
+  constexpr double particle = 0.35e-3 * 2.66;
+  for (const Test& test : {brazilian(9e-3, 5e-3), semicircular_bending(11e-3, 5e-3, 0.5, 0.6, particle),
+                           bending(7e-3, 5e-3, 0.5, particle)}) {
     const Settings settings = granite_in(test);
     const Specimen specimen = Run::make(settings);
     const Body& body = *test.body;
@@ -124,14 +127,9 @@ TEST_CASE("what is cut out of a packing lies in its box, holds together, and has
   }
 }
 
-TEST_CASE("round faces push along the line between both centres") {
-  // A roller of 2 mm below a sphere of 1 mm, 3 mm apart along (3, 4) / 5: they touch.
-  const RoundGap roller = round_gap(2e-3, 1.8e-3, 2.4e-3, 1e-3);
-  CHECK(std::abs(roller.gap) < 1e-15);
-  CHECK(roller.x == test::near(0.6));
-  CHECK(roller.z == test::near(0.8));
-  // A hollow jaw of 5 mm round a sphere of 1 mm, whose centre is 3.5 mm from the axis: half a millimetre is left.
-  const RoundGap jaw = round_gap(-5e-3, 2.1e-3, -2.8e-3, 1e-3);
+TEST_CASE("a hollow jaw pushes towards its axis") {
+  // A jaw of 5 mm round a sphere of 1 mm, whose centre is 3.5 mm from the axis: half a millimetre is left.
+  const JawGap jaw = jaw_gap(5e-3, 2.1e-3, -2.8e-3, 1e-3);
   CHECK(jaw.gap == test::near(0.5e-3));
   CHECK(jaw.x == test::near(-0.6));
   CHECK(jaw.z == test::near(0.8));
@@ -146,7 +144,8 @@ TEST_CASE("the gauge of a notch reads how far its sides have moved apart") {
   const MouthGauge gauge(position, 1.5e-3);
   std::vector<Row8> poses;
   for (const Vec3& p : position) {
-    const double side = p[0] < 0 ? -4e-6 : 3e-6, far = p[2] > 1.5e-3 ? 1e-4 : 0;
+    // Its sides turn as it opens; what lies higher is not looked at.
+    const double side = (p[0] < 0 ? -4e-6 : 3e-6) * (1 - p[2] / 4e-3), far = p[2] > 1.5e-3 ? 1e-4 : 0;
     poses.push_back({{p[0] + side + far, p[1], p[2], 1e-4, 1, 0, 0, 0}});
   }
   CHECK(gauge.read(poses) == test::near(7e-6).epsilon(1e-9));
@@ -166,6 +165,15 @@ TEST_CASE("what makes no test is told with file, line and key") {
       {"brazilian", "sweep", "jaw_ratio", "[0, 1.02]", "write 1.5 (ISRM)"},
       {"brazilian", "sweep", "jaw_ratio", "[]", "the list is empty"},
       {"brazilian", "brazilian", "sample_strain", "1e-8", "closer than steps"},
+      {"bending", "bending", "width", "\"3 mm\"", "write at least 4.55 mm"},
+      {"bending", "bending", "notch", "0.1", "write 0.19 to 0.81", "depth = \"10 mm\""},
+      {"bending", "bending", "notch", "0.9", "0 to 0.7"},
+      {"bending", "sweep", "notch", "[0, 0.05]", "the notch is"},
+      {"semicircular_bending", "semicircular_bending", "thickness", "\"3 mm\"", "write at least 4.55 mm"},
+      {"semicircular_bending", "semicircular_bending", "notch", "0.6", "the ligament is 1.8 mm high",
+       "diameter = \"9 mm\""},
+      {"semicircular_bending", "semicircular_bending", "notch", "0.7", "0.4 to 0.6"},
+      {"semicircular_bending", "semicircular_bending", "span", "0.4", "0.5 to 0.8"},
       {"direct_shear", "direct_shear", "edge", "\"3 mm\"", "write at least 4.55 mm"},
       {"direct_shear", "direct_shear", "grip", "0.02", "write at least 0.05", "edge = \"7 mm\""},
       {"direct_shear", "direct_shear", "gap", "0.1", "write at least 0.17", "edge = \"7 mm\""},

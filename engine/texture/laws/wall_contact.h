@@ -1,5 +1,5 @@
 #pragma once
-// Contact of a sphere with a rigid wall without friction: platens, rollers, jaws and the jacket.
+// Contact of a sphere with a rigid wall without friction: platens, jaws and the jacket.
 //
 // As published (Cundall & Strack 1979): the linear law without friction. The stiffness follows the rule of the contacts of
 // spheres, A E_c / L (linear_contact.h), where one side is rigid: A = pi R^2, L = R.
@@ -9,9 +9,8 @@
 // As coded: the gap is that between the surface of the sphere and the wall, less the gap g0 <= 0 at installation,
 //   platen at height z_w:    g = +-(z_w - z) - R - g0      force along z
 //   jacket of radius R_j:    g = R_j - |(x, y)| - R - g0   force towards the axis
-//   round face with its axis along y, at a distance d in the plane (x, z) from the centre of the sphere:
-//     roller of radius R_f   g = d - R_f - R - g0           force away from its axis
-//     hollow jaw             g = R_f - d - R - g0           force towards its axis
+//   hollow jaw of radius R_f with its axis along y, at a distance d in the plane (x, z) from the centre of the sphere:
+//                            g = R_f - d - R - g0           force towards its axis
 // Stored energy U = k g^2 / 2. Without friction the force passes through the centre: there is neither moment nor heat.
 // The reaction on the wall is -F.
 //
@@ -40,17 +39,16 @@ DEM_INLINE double platen_gap(double wall, bool upper, double z, double radius) {
 /// Gap between a jacket and the surface of a sphere whose centre is `away` from its axis, m.
 DEM_INLINE double jacket_gap(double jacket, double away, double radius) { return jacket - away - radius; }
 
-/// A round face as a sphere meets it.
-struct RoundGap {
+/// A hollow jaw as a sphere meets it.
+struct JawGap {
   double gap = 0;       ///< m
   double x = 0, z = 0;  ///< direction in which the face pushes
 };
 
-/// `radius`: of the face, m; positive: a roller, negative: a hollow jaw. (dx, dz): from the axis of the face to the centre
-/// of the sphere, m.
-DEM_INLINE RoundGap round_gap(double radius, double dx, double dz, double sphere) {
-  const double away = root(dx * dx + dz * dz), side = radius > 0 ? 1 : -1;
-  return {side * away - radius - sphere, side * dx / away, side * dz / away};
+/// `jaw`: its radius, m. (dx, dz): from its axis to the centre of the sphere, m.
+DEM_INLINE JawGap jaw_gap(double jaw, double dx, double dz, double sphere) {
+  const double away = root(dx * dx + dz * dz);
+  return {jaw - away - sphere, -dx / away, -dz / away};
 }
 
 /// What the wall does to the sphere.

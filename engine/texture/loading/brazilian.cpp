@@ -126,7 +126,7 @@ Test brazilian(double diameter, double thickness, double jaw_ratio) {
       .read_off = read_off,
   };
   if (jaw_ratio > 0) {
-    for (std::vector<Face>& faces : test.faces) faces = {{.x = 0, .radius = -jaw_ratio * diameter / 2}};
+    for (std::vector<Face>& faces : test.faces) faces = {{.jaw = jaw_ratio * diameter / 2}};
   }
   return test;
 }

@@ -1,6 +1,5 @@
 #include "engine/texture/loading/gauge.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace dem::texture {
@@ -36,23 +35,31 @@ std::array<double, 3> StrainGauge::read(const std::vector<Row8>& poses) const {
   return slope;
 }
 
-MouthGauge::MouthGauge(const std::vector<Vec3>& position, double reach) {
+MouthGauge::MouthGauge(const std::vector<Vec3>& position, double reach) : start_(position) {
   for (std::size_t i = 0; i < position.size(); ++i) {
     const auto& [x, y, z] = position[i];
-    if (z > reach || std::abs(x) > reach) continue;
-    Side& side = sides_[x < 0 ? 0 : 1];
-    side.particles.push_back(static_cast<std::int32_t>(i));
-    side.start += x;
+    if (z <= reach && std::abs(x) <= reach) sides_[x < 0 ? 0 : 1].push_back(static_cast<std::int32_t>(i));
   }
-  for (Side& side : sides_) side.start /= static_cast<double>(std::max<std::size_t>(side.particles.size(), 1));
 }
 
 double MouthGauge::read(const std::vector<Row8>& poses) const {
   std::array<double, 2> moved{};
   for (std::size_t s = 0; s < 2; ++s) {
-    if (sides_[s].particles.empty()) return 0;
-    for (const std::int32_t p : sides_[s].particles) moved[s] += poses[static_cast<std::size_t>(p)].v[0];
-    moved[s] = moved[s] / static_cast<double>(sides_[s].particles.size()) - sides_[s].start;
+    if (sides_[s].empty()) return 0;
+    const auto n = static_cast<double>(sides_[s].size());
+    double mean_z = 0, mean_u = 0, zz = 0, zu = 0;
+    for (const std::int32_t p : sides_[s]) {
+      const auto i = static_cast<std::size_t>(p);
+      mean_z += start_[i][2] / n;
+      mean_u += (poses[i].v[0] - start_[i][0]) / n;
+    }
+    for (const std::int32_t p : sides_[s]) {
+      const auto i = static_cast<std::size_t>(p);
+      const double z = start_[i][2] - mean_z;
+      zz += z * z;
+      zu += z * (poses[i].v[0] - start_[i][0] - mean_u);
+    }
+    moved[s] = mean_u - (zz > 0 ? zu / zz * mean_z : 0);
   }
   return moved[1] - moved[0];
 }

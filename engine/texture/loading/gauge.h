@@ -29,7 +29,8 @@ class StrainGauge {
   std::vector<std::int32_t> inside_;
 };
 
-/// How far the two sides of the plane x = 0 have moved apart near the lower face, in the mean over particles of either side.
+/// How far the two sides of the plane x = 0 have moved apart at the lower face: u_x at z = 0, by least squares over z of the
+/// particles of either side.
 class MouthGauge {
  public:
   /// Particles up to `reach` (m) from the plane and above z = 0; 0: there is no gauge.
@@ -37,11 +38,8 @@ class MouthGauge {
   [[nodiscard]] double read(const std::vector<Row8>& poses) const;  ///< m
 
  private:
-  struct Side {
-    std::vector<std::int32_t> particles;
-    double start = 0;  ///< mean x, m
-  };
-  std::array<Side, 2> sides_;  ///< x < 0, x >= 0
+  std::vector<Vec3> start_;
+  std::array<std::vector<std::int32_t>, 2> sides_;  ///< particles; x < 0, x >= 0
 };
 
 }  // namespace dem::texture

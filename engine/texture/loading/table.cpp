@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/texture/loading/bending.h"
 #include "engine/texture/loading/brazilian.h"
 #include "engine/texture/loading/compression.h"
 #include "engine/texture/loading/direct_shear.h"
@@ -18,8 +19,8 @@ namespace dem::texture {
 
 std::span<const TestEntry> tests() {
   static const std::array table = {
-      compression_entry(),  direct_tension_entry(),  brazilian_entry(),
-      direct_shear_entry(), unloading_loops_entry(), genesis_entry(),
+      compression_entry(),          direct_tension_entry(), brazilian_entry(),       bending_entry(),
+      semicircular_bending_entry(), direct_shear_entry(),   unloading_loops_entry(), genesis_entry(),
   };
   return table;
 }

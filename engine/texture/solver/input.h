@@ -18,11 +18,12 @@ struct BondSpec {
   ContactGroup group;
 };
 
-/// One face of a rigid end that bears on the specimen: a plane, or a cylinder with its axis along y. The place of the end
-/// is that of the plane, or of the line where the cylinder is highest (of the lower end) or lowest (of the upper).
+/// One face of a rigid end that bears on the specimen: a plane, a strip of it along y, or a hollow jaw with its axis along
+/// y. The place of the end is that of the plane, or of the line where the jaw is lowest (of the lower end) or highest.
 struct Face {
-  double x = 0;       ///< m, of that line
-  double radius = 0;  ///< m; 0: a plane; > 0: a roller; < 0: a hollow jaw
+  double x = 0;      ///< m: middle of the strip, or that line
+  double jaw = 0;    ///< m: radius of a hollow jaw; 0: a plane
+  double strip = 0;  ///< m: half the width of a strip, bedded on the rough surface that it lies on; 0: the whole plane
 };
 
 struct AssemblyInput {

@@ -4,10 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/core/errors.h"
+
 namespace dem::texture {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr double bed = 0.5;  // thickness of what a strip is bedded in, over the radius of the particle that it bears on
 
 // One step towards a target.
 void approach(double& value, double target, double& gain) {
@@ -53,6 +56,24 @@ Walls::Walls(const AssemblyInput& input, const Slabs& slabs)
     meet({i, slabs.of_particle(i), input.position[i], input.radius[i], static_cast<std::size_t>(input.mineral[i])}, 0,
          true);
   }
+  check_strips();
+}
+
+// A strip that bears on nothing would let the specimen fall.
+void Walls::check_strips() const {
+  for (std::size_t w = 0; w < 2; ++w) {
+    for (std::size_t f = 0; f < faces_[w].size(); ++f) {
+      const auto bears = [&](const PlatenContact& c) {
+        return static_cast<std::size_t>(c.upper) == w && static_cast<std::size_t>(c.face) == f;
+      };
+      const bool any =
+          std::ranges::any_of(platen_contacts_, [&](const auto& of) { return std::ranges::any_of(of, bears); });
+      if (faces_[w][f].strip > 0 && !any) {
+        throw CaseError(
+            "a strip that the specimen is to lie on bears on no particle; take another seed or a larger specimen");
+      }
+    }
+  }
 }
 
 void Walls::drive(double lower, double upper, std::int64_t ramp) {
@@ -82,10 +103,10 @@ void Walls::press(std::size_t slab, Particles& particles) {
 }
 
 // Of the face of an end, before the gap at rest.
-RoundGap Walls::gap_of(std::int32_t upper, const Face& face, const Vec3& at, double radius) const {
+JawGap Walls::gap_of(std::int32_t upper, const Face& face, const Vec3& at, double radius) const {
   const double z = ends_[static_cast<std::size_t>(upper)].z, side = upper != 0 ? -1 : 1;
-  if (face.radius == 0) return {platen_gap(z, upper != 0, at[2], radius), 0, side};
-  return round_gap(face.radius, at[0] - face.x, at[2] - (z - side * face.radius), radius);
+  if (face.jaw == 0) return {platen_gap(z, upper != 0, at[2], radius), 0, side};
+  return jaw_gap(face.jaw, at[0] - face.x, at[2] - (z + side * face.jaw), radius);
 }
 
 void Walls::press_platens(std::size_t slab, Particles& particles) {
@@ -99,12 +120,12 @@ void Walls::press_platens(std::size_t slab, Particles& particles) {
     const auto w = static_cast<std::size_t>(contact.upper);
     const Row8& pose = particles.pose[p];
     const Face& face = faces_[w][static_cast<std::size_t>(contact.face)];
-    const RoundGap at = gap_of(contact.upper, face, {pose.v[0], pose.v[1], pose.v[2]}, pose.v[3]);
+    const JawGap at = gap_of(contact.upper, face, {pose.v[0], pose.v[1], pose.v[2]}, pose.v[3]);
     const WallResult result = advance(contact.law, at.gap);
     if (result.stiffness == 0) continue;
     const double f = at.z * result.push;  // on the particle, along z
     particles.force[p].v[2] += f;
-    if (face.radius != 0) particles.force[p].v[0] += at.x * result.push;
+    if (face.jaw != 0) particles.force[p].v[0] += at.x * result.push;
     sums.force[w] += f;
     sums.stiffness[w] += result.stiffness;
     elastic += result.energy;
@@ -225,13 +246,15 @@ void Walls::meet(const Near& sphere, double reach, bool first) {
     const std::vector<Face>& faces = faces_[static_cast<std::size_t>(upper)];
     for (std::int16_t f = 0; f < static_cast<std::int16_t>(faces.size()); ++f) {
       const Face& face = faces[static_cast<std::size_t>(f)];
+      if (face.strip > 0 && std::abs(sphere.x[0] - face.x) > face.strip) continue;
       std::vector<PlatenContact>& contacts = platen_contacts_[sphere.slab];
       const auto particle = static_cast<std::int32_t>(sphere.particle);
       const auto same = [&](const PlatenContact& c) {
         return c.particle == particle && c.upper == upper && c.face == f;
       };
       const double gap = gap_of(upper, face, sphere.x, sphere.radius).gap;
-      if (gap > reach || is_known(contacts, same)) continue;
+      const bool bedded = first && face.strip > 0;
+      if (gap > (bedded ? bed * sphere.radius : reach) || is_known(contacts, same)) continue;
       contacts.push_back({particle, upper, f, {first ? gap : 0, k}});
       if (first) ends_[static_cast<std::size_t>(upper)].stiffness += k;
     }
@@ -253,7 +276,7 @@ void Walls::add_stiffness(std::vector<std::array<double, 6>>& diagonal) const {
       const std::size_t w = contact.upper != 0 ? 1 : 0;
       std::array<double, 6>& of = diagonal[static_cast<std::size_t>(contact.particle)];
       of[2] += contact.law.stiffness;
-      if (faces_[w][static_cast<std::size_t>(contact.face)].radius != 0) of[0] += contact.law.stiffness;
+      if (faces_[w][static_cast<std::size_t>(contact.face)].jaw != 0) of[0] += contact.law.stiffness;
     }
   }
   for (const auto& slab : jacket_contacts_) {

@@ -1,7 +1,7 @@
 #pragma once
 // What holds a specimen from outside: platens or grips at its ends, a jacket round its sides.
 //
-// Platens are rigid and without friction, each a plane or some rollers or a hollow jaw (Face); the jacket is a frictionless
+// Platens are rigid and without friction, each a plane or some strips of it or a hollow jaw (Face); the jacket is a frictionless
 // cylinder round the z axis (laws/wall_contact.h). Walls
 // that carry a pressure have no mass: at each step each of them goes to where its contacts carry the pressure, by one
 // Newton step from the forces of the step before; the jacket foresees that particles go on pushing as they did.
@@ -109,8 +109,9 @@ class Walls {
   /// Gives it contacts with the walls that it is nearer to than `reach` and has none with yet. The first ones, at
   /// installation, start free of stress.
   void meet(const Near& sphere, double reach, bool first);
+  void check_strips() const;
   [[nodiscard]] bool any() const { return platens_ || jacket_.radius > 0; }
-  [[nodiscard]] RoundGap gap_of(std::int32_t upper, const Face& face, const Vec3& at, double radius) const;
+  [[nodiscard]] JawGap gap_of(std::int32_t upper, const Face& face, const Vec3& at, double radius) const;
   void press_platens(std::size_t slab, Particles& particles);
   void press_jacket(std::size_t slab, Particles& particles);
 

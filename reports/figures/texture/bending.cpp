@@ -1,0 +1,175 @@
+// Bending of bars and of half discs: how they are loaded and crack, load against the opening of the notch and against
+// deflection, modulus of rupture and fracture toughness.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/analysis/fits.h"
+#include "reports/figures/table.h"
+#include "reports/figures/texture/parts.h"
+#include "reports/text.h"
+
+namespace reports::texture {
+namespace {
+
+constexpr render::Colour steel{0.35, 0.38, 0.42};
+constexpr int curves_height = 340, picture_width = 900;
+constexpr double least_diameter = 76e-3;  // m, of a half disc (Kuruppu et al. 2014), beside ten grains
+
+/// What bends: where it bears, its notch, and the area that turns its stress into the load.
+struct Bent {
+  double half_span = 0, notch = 0;  ///< m
+  double area = 0;                  ///< m^2
+};
+
+/// A strip that pushes, above (1) or below (-1) the body.
+void add_strip(render::Scene& scene, double x, double z, double half, double side) {
+  const double back = z + side * half;
+  scene.lines.push_back(
+      {{{x - half, 0, z}, {x + half, 0, z}, {x + half, 0, back}, {x - half, 0, back}, {x - half, 0, z}},
+       steel,
+       3,
+       render::Line::solid,
+       false});
+}
+
+Panel cracks_panel(const StudyResult& study, const SeriesCase& item, const Bent& bent, const std::string& what) {
+  const Size size = size_of(*item.record);
+  const double strip = std::max(0.05 * size.height, 0.5 * mean_diameter(*item.record));  // bending.h of the model
+  Picture picture = section_cracks(study, *item.record, all_cracks, item.label, picture_width);
+  render::Scene& scene = picture.scene;
+  add_strip(scene, -bent.half_span, 0, strip, -1);
+  add_strip(scene, bent.half_span, 0, strip, -1);
+  add_strip(scene, 0, size.height, strip, 1);
+  if (bent.notch > 0) {
+    scene.lines.push_back({{{0, 0, 0}, {0, 0, bent.notch}}, {0, 0, 0}, 2.5, render::Line::solid, true});
+  }
+  // The picture holds the strips too.
+  const double half = 0.5 * size.diameter, room = 1.5 * strip;
+  scene.camera.frame = {{{-half, -half, -room}, {half, half, size.height + room}}};
+  scene.height = static_cast<int>(std::lround(scene.width * (size.height + 2 * room) / size.diameter));
+  return {.id = "cracks_" + item.id,
+          .caption = "The " + what + " on its strips, with the cracks near the section at the end" +
+                     (bent.notch > 0 ? "; the notch is the thick line." : "."),
+          .alt = "Cracks at the end: " + crack_words(crack_numbers(*item.record, all_cracks)) + ".",
+          .content = std::move(picture),
+          .per_row = 1};
+}
+
+render::Chart curves_of(const std::vector<SeriesCase>& cases, const CurveOf& of, const std::string& x_title) {
+  render::Chart chart;
+  chart.x.title = x_title;
+  chart.left.title = "Load P (kN)";
+  chart.left.low = 0;
+  add_curves(chart, cases, of);
+  chart.legend = render::Chart::Legend::below;
+  chart.height = curves_height;
+  return chart;
+}
+
+void add_loads(FigureContent& content, const std::vector<SeriesCase>& cases, double area, const std::string& depth) {
+  std::vector<SeriesCase> notched;
+  for (const SeriesCase& item : cases) {
+    if (item.record->table("history").has("opening")) notched.push_back(item);
+  }
+  if (!notched.empty()) {
+    content.panels.push_back(
+        {.id = "opening",
+         .caption = "Load against the opening of the notch at the lower face.",
+         .alt = "Curves of load against opening.",
+         .content = curves_of(notched, {"opening", "axial_stress", 1e6, 1e-3 * area}, "Opening of the notch (µm)"),
+         .per_row = 2});
+  }
+  content.panels.push_back({.id = "deflection",
+                            .caption = "Load against the approach of the strips.",
+                            .alt = "Curves of load against deflection.",
+                            .content = curves_of(cases, {"platen_strain", "axial_stress", 100, 1e-3 * area},
+                                                 "Approach (% of " + depth + ")"),
+                            .per_row = 2});
+}
+
+analysis::Estimate mean_over(const SeriesCase& item, const dem::Quantity& quantity) {
+  std::vector<double> values;
+  for (const dem::Record* record : item.repeats) {
+    const double value = quantity.factor * record->value_or_nan(quantity);
+    if (std::isfinite(value)) values.push_back(value);
+  }
+  return analysis::mean_of(values);
+}
+
+std::string cell(const SeriesCase& item, const dem::Quantity& quantity) {
+  const analysis::Estimate mean = mean_over(item, quantity);
+  return std::isfinite(mean.value) ? estimate_text(mean, 3, true) : "–";
+}
+
+Panel table_panel(TextTable table) {
+  return {.id = "table",
+          .caption = "Means over specimens, with their 95 % intervals.",
+          .alt = "",
+          .content = std::move(table),
+          .per_row = 1};
+}
+
+}  // namespace
+
+FigureContent bending_test(const StudyResult& study) {
+  FigureContent content;
+  if (auto missing = missing_cases(study, test_bending)) content.panels.push_back(*missing);
+  std::vector<SeriesCase> cases = series_of(of_mineral(study, ""), test_bending, parameter::notch);
+  if (cases.empty() || !study.scenario) return content;
+  const double depth = study.scenario->real("bending.depth"), width = study.scenario->real("bending.width");
+  const double area = (width > 0 ? width : 0.6 * depth) * depth / 6;  // 2bW²/(3S), S = 4W
+  TextTable table{{"Bar", "Specimens", "Modulus of rupture (MPa)", "K_Ic (MPa√m)", "Opening at the largest load (µm)"},
+                  {}};
+  std::vector<std::string> said;
+  for (SeriesCase& item : cases) {
+    item.label = item.value > 0 ? "notch of " + shortest(item.value) + " W" : "no notch";
+    content.panels.push_back(cracks_panel(study, item, {2 * depth, item.value * depth, area}, "bar"));
+    table.rows.push_back({item.label, std::to_string(item.repeats.size()), cell(item, quantity::modulus_of_rupture),
+                          cell(item, quantity::fracture_toughness), cell(item, quantity::mouth_opening)});
+    const analysis::Estimate rupture = mean_over(item, quantity::modulus_of_rupture),
+                             toughness = mean_over(item, quantity::fracture_toughness);
+    if (std::isfinite(rupture.value)) said.push_back("the modulus of rupture is " + estimate_text(rupture, 3) + " MPa");
+    if (std::isfinite(toughness.value)) {
+      said.push_back("K_Ic by ASTM E399 is " + estimate_text(toughness, 3) + " MPa√m with a " + item.label);
+    }
+  }
+  add_loads(content, cases, area, "W");
+  content.panels.push_back(table_panel(std::move(table)));
+  if (!said.empty()) content.finding = "In three-point bending over four depths " + listed(said) + ".";
+  return content;
+}
+
+FigureContent half_disc_test(const StudyResult& study) {
+  FigureContent content;
+  if (auto missing = missing_cases(study, test_half_disc)) content.panels.push_back(*missing);
+  std::vector<SeriesCase> cases = series_of(of_mineral(study, ""), test_half_disc, parameter::aspect_ratio);
+  if (cases.empty() || !study.scenario) return content;
+  const double diameter = study.scenario->real("semicircular_bending.diameter"),
+               thickness = study.scenario->real("semicircular_bending.thickness"),
+               span = study.scenario->real("semicircular_bending.span") * diameter,
+               notch = study.scenario->real("semicircular_bending.notch") * diameter / 2;
+  const double area = diameter * (thickness > 0 ? thickness : 0.4 * diameter);
+  TextTable table{{"Half disc", "Specimens", "K_Ic (MPa√m)", "Opening at the largest load (µm)"}, {}};
+  for (const SeriesCase& item : cases) {
+    content.panels.push_back(cracks_panel(study, item, {span / 2, notch, area}, "half disc"));
+    table.rows.push_back({item.label, std::to_string(item.repeats.size()), cell(item, quantity::fracture_toughness),
+                          cell(item, quantity::mouth_opening)});
+  }
+  add_loads(content, cases, area, "R");
+  content.panels.push_back(table_panel(std::move(table)));
+  const analysis::Estimate toughness = mean_over(cases.front(), quantity::fracture_toughness);
+  if (std::isfinite(toughness.value)) {
+    content.finding =
+        fmt::format("K_Ic by the suggested method of Kuruppu et al. 2014 is {} MPa√m.", estimate_text(toughness, 3));
+    if (diameter < least_diameter) {
+      content.finding +=
+          fmt::format(" The half disc is {} mm wide; the method asks for {:g} mm, below which K_Ic falls.",
+                      shortest(1e3 * diameter), 1e3 * least_diameter);
+    }
+  }
+  return content;
+}
+
+}  // namespace reports::texture
