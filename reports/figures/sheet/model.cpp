@@ -65,6 +65,33 @@ Drawing draw_window(const dem::Record& r, const Window& w, double width, bool ou
   return d;
 }
 
+bool holds(const std::vector<std::array<double, 2>>& outline, double x, double y) {
+  bool inside = false;
+  for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
+    const auto &a = outline[i], &b = outline[j];
+    if ((a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) inside = !inside;
+  }
+  return inside;
+}
+
+// Particles that lie inside the outline of their grain; outlines go on at the other side of the box.
+long inside_their_grain(const dem::Record& r) {
+  const auto outlines = outlines_of(r);
+  const Layout l = layout_of(r);
+  const Particles p = particles_of(r);
+  long found = 0;
+  for (std::size_t i = 0; i < p.grain.size(); ++i) {
+    const auto& outline = outlines.at(static_cast<std::size_t>(p.grain[i]));
+    bool inside = false;
+    for (const double dx : {0.0, -1.0, 1.0}) {
+      for (const double dy : {0.0, -l.height, l.height})
+        inside = inside || holds(outline, p.place[2 * i] + dx, p.place[2 * i + 1] + dy);
+    }
+    found += inside ? 1 : 0;
+  }
+  return found;
+}
+
 }  // namespace
 
 FigureContent neighbours(const StudyResult& study) {
@@ -249,7 +276,12 @@ FigureContent elle_layer(const StudyResult& study) {
       uniform_layer(*r) ? "The layer and the matrix on both sides of it"
       : layered(*r)     ? "The " + count(grains - 2) + " grains of the layer and the matrix on both sides of it"
                         : count(grains) + " grains";
-  content.finding = fmt::format("{} hold {} particles.", holders, count(r->value(quantity::particles)));
+  const long all = static_cast<long>(p.grain.size()), inside = inside_their_grain(*r);
+  const long unsure = std::max(2L, all / 100);  // as many as a map may leave out
+  content.agreement = inside >= all - unsure ? Agreement::agrees : Agreement::disagrees;
+  content.finding =
+      fmt::format("{} hold {} particles, {} inside the outline of its grain.", holders, count(static_cast<double>(all)),
+                  inside == all ? "each" : count(static_cast<double>(inside)) + " of them");
   return content;
 }
 

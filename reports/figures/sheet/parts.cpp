@@ -137,9 +137,10 @@ std::vector<std::vector<std::array<double, 2>>> outlines_of(const dem::Record& r
   const dem::Table& t = record.table("outlines");
   const auto grain = t.integer("grain");
   const auto place = t.real("position");
+  const double aside = 0.5 * layout_of(record).radius;  // as the cell lies under the rows, which alternate by a radius
   std::vector<std::vector<std::array<double, 2>>> result(record.table("grains").rows());
   for (std::size_t i = 0; i < grain.size(); ++i) {
-    result[static_cast<std::size_t>(grain[i])].push_back({place[2 * i], place[2 * i + 1]});
+    result[static_cast<std::size_t>(grain[i])].push_back({place[2 * i] + aside, place[2 * i + 1]});
   }
   return result;
 }

@@ -60,7 +60,7 @@ std::string grain_fill(std::size_t grain);
 constexpr std::string_view marked_fill = "#e9d9a8";
 constexpr std::string_view intra_colour = "#bd4300", inter_colour = "#0b3c5d";
 
-/// The outlines of a record's grains, each as points.
+/// The outlines of a record's grains, each as points, where they lie under the particles.
 std::vector<std::vector<std::array<double, 2>>> outlines_of(const dem::Record& record);
 
 /// True for a layer in a matrix.
