@@ -8,6 +8,9 @@
 
 namespace reports {
 
+/// No picture is printed higher, mm: rows that high leave no page a third empty.
+inline constexpr double highest_picture = 74;
+
 /// A bar below a picture that tells its scale.
 struct ScaleBar {
   std::string text;    ///< "5 mm"

@@ -1,6 +1,9 @@
 #include "reports/granite.h"
 
+#include <fmt/format.h>
+
 #include "engine/analysis/series.h"
+#include "engine/core/record.h"
 
 namespace reports::texture {
 
@@ -19,6 +22,20 @@ analysis::Envelopes envelopes_of(const StudyResult& study, std::string_view mine
   return analysis::envelopes_of(
       analysis::series_of(cases, test_compression, parameter::confining_pressure),
       {quantity::compressive_strength, quantity::crack_damage, quantity::initiation_readings});
+}
+
+std::string specimen_words(const StudyResult& study, const CaseResult& result) {
+  const dem::Table* particles = result.record ? result.record->find("particles") : nullptr;
+  if (!particles) return {};
+  const std::string width = particles->attribute("diameter"), height = particles->attribute("height");
+  if (width.empty() || height.empty()) return {};
+  const auto mm = [](double metres) { return fmt::format("{:g} mm", 1e3 * metres); };
+  if (result.test() == test_brazilian) {
+    const double thickness = study.scenario->real("brazilian.thickness");
+    return "disc of " + mm(std::stod(height)) + " × " + mm(thickness > 0 ? thickness : std::stod(height) / 2);
+  }
+  if (result.test() == test_shear) return "block of " + mm(std::stod(height));
+  return mm(std::stod(width)) + " × " + mm(std::stod(height));
 }
 
 }  // namespace reports::texture

@@ -1,5 +1,6 @@
 #pragma once
 // What figures and published numbers of the grain texture model both read: its tests, the cases of one mineral, envelopes.
+#include <string>
 #include <string_view>
 
 #include "engine/analysis/envelopes.h"
@@ -24,5 +25,9 @@ inline constexpr std::string_view test_genesis = "genesis";
 StudyResult of_mineral(const StudyResult& study, std::string_view mineral);
 /// Of the compression tests of one mineral, or of the rock (""), that agree in all but confining pressure and seed.
 analysis::Envelopes envelopes_of(const StudyResult& study, std::string_view mineral = "");
+
+/// What the specimen of a case is: "6.25 mm × 12.5 mm" (diameter and height), "disc of 50 mm × 25 mm", "block of 25 mm"; ""
+/// where its record does not say.
+std::string specimen_words(const StudyResult& study, const CaseResult& result);
 
 }  // namespace reports::texture

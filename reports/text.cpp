@@ -29,14 +29,14 @@ std::string dressed(const std::string& plain) {
   return text + plain.substr(end);
 }
 
-std::string superscript(int exponent) {
+}  // namespace
+
+std::string power_of_ten(int exponent) {
   constexpr std::array<std::string_view, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = exponent < 0 ? "⁻" : "";
+  std::string text = exponent < 0 ? "10⁻" : "10";
   for (const char c : std::to_string(std::abs(exponent))) text += digits[static_cast<std::size_t>(c - '0')];
   return text;
 }
-
-}  // namespace
 
 bool needs_powers(double value) {
   const double size = std::abs(value);
@@ -56,7 +56,7 @@ std::string scientific(double value, int digits) {
   if (value == 0) return "0";
   const std::string text = fmt::format("{:.{}e}", value, std::max(0, digits - 1));
   const std::size_t e = text.find('e');
-  return dressed(text.substr(0, e)) + " × 10" + superscript(std::stoi(text.substr(e + 1)));
+  return dressed(text.substr(0, e)) + " × " + power_of_ten(std::stoi(text.substr(e + 1)));
 }
 
 std::string fixed(double value, int places) {
@@ -90,6 +90,11 @@ std::string words(std::string_view id) {
   return text;
 }
 
+std::string capital(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
 std::string parameter_text(const std::variant<double, std::string>& value) {
   if (const auto* text = std::get_if<std::string>(&value)) return words(*text);
   return fmt::format("{:.6g}", std::get<double>(value));
@@ -107,9 +112,11 @@ std::string axis_title(const dem::Quantity& quantity) {
 std::string parameter_words(const dem::Parameter& parameter, const dem::ParameterValue& value) {
   const std::string text = parameter_text(value);
   if (text.empty()) return {};
+  if (!parameter.at_zero.empty() && text == "0") return std::string(parameter.at_zero);
   const std::string unit(parameter.unit);
   return (parameter.symbol.empty() ? "" : std::string(parameter.symbol) + " ") + text +
-         (unit.empty() || unit == "°" ? unit : " " + unit);
+         (unit.empty() || unit == "°" ? unit : " " + unit) +
+         (parameter.behind.empty() ? "" : " " + std::string(parameter.behind));
 }
 
 std::pair<double, std::string> energy_unit(double largest) {

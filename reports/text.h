@@ -15,6 +15,8 @@ namespace reports {
 std::string number(double value, int digits = 3);
 /// The same in powers of ten, whatever the size: for numbers beside one that needs them. 0 stays "0".
 std::string scientific(double value, int digits = 3);
+/// "10⁻⁵".
+std::string power_of_ten(int exponent);
 /// Whether number() writes the value in powers of ten.
 bool needs_powers(double value);
 /// `value` with `places` decimals, a real minus sign and thin spaces.
@@ -33,6 +35,9 @@ std::string listed(const std::vector<std::string>& items);
 std::string joined(const std::vector<std::string>& items, std::string_view between);
 /// "inter_quartz_biotite" -> "inter quartz biotite".
 std::string words(std::string_view id);
+
+/// Begins with a capital, where it begins with a letter of the alphabet.
+std::string capital(std::string text);
 
 /// A parameter of a record as text: numbers short, words as they are.
 std::string parameter_text(const std::variant<double, std::string>& value);

@@ -50,16 +50,18 @@ using ParameterValue = std::variant<double, std::string>;
 
 /// One thing that cases of a study may differ in: an axis of a sweep, or a choice.
 struct Parameter {
-  std::string_view id;           ///< in records, summary.json and published terms: "confining_pressure"
-  std::string_view name;         ///< title of an axis: "Confining pressure"
-  std::string_view symbol = {};  ///< in labels, before the value: "σ₃"; "": the value stands alone
-  std::string_view unit = {};    ///< of its values: "MPa", "°"
-  std::string_view in_ids = {};  ///< in ids of cases and names of files: "sigma3"
-  std::string_view key = {};     ///< scenario key of its value where nothing sweeps it; "": `usual`
-  std::string_view usual = {};   ///< the value of a case without it: a number or a word
-  bool axis = false;             ///< a quantity that results are plotted against
-  std::string_view words = {};   ///< in sentences: "the confining pressure"
-  std::string_view step = {};    ///< "MPa of confining pressure", after "per"
+  std::string_view id;            ///< in records, summary.json and published terms: "confining_pressure"
+  std::string_view name;          ///< title of an axis: "Confining pressure"
+  std::string_view symbol = {};   ///< in labels, before the value: "σ₃"; "": the value stands alone
+  std::string_view unit = {};     ///< of its values: "MPa", "°"
+  std::string_view in_ids = {};   ///< in ids of cases and names of files: "sigma3"
+  std::string_view key = {};      ///< scenario key of its value where nothing sweeps it; "": `usual`
+  std::string_view usual = {};    ///< the value of a case without it: a number or a word
+  std::string_view at_zero = {};  ///< in labels, instead of symbol and value where that is 0: "flat platens"
+  std::string_view behind = {};   ///< in labels, after a value without a unit: "R" of "jaws of 1.5 R"
+  bool axis = false;              ///< a quantity that results are plotted against
+  std::string_view words = {};    ///< in sentences: "the confining pressure"
+  std::string_view step = {};     ///< "MPa of confining pressure", after "per"
 };
 
 /// What laboratories measure that a model gives: a key below [measured] of its scenarios.

@@ -11,6 +11,7 @@
 #include "engine/core/files.h"
 #include "engine/scenario/units.h"
 #include "reports/page/downloads.h"
+#include "reports/page/typeset.h"
 #include "reports/text.h"
 
 namespace calibrate {
@@ -18,6 +19,7 @@ namespace {
 
 using Data = kainjow::mustache::data;
 using Json = nlohmann::ordered_json;
+using reports::capital;
 using reports::number;
 
 Data list() { return Data{Data::type::list}; }
@@ -29,11 +31,6 @@ Data cells(const std::vector<std::string>& texts) {
 }
 
 void flag(Data& data, const std::string& name, bool value) { data.set(name, value); }
-
-std::string capital(std::string text) {
-  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
-  return text;
-}
 
 std::string in_unit(double si, const std::string& unit) {
   return number(unit.empty() ? si : si / dem::to_si(1, unit), 4) + (unit.empty() ? "" : " " + unit);
@@ -311,7 +308,7 @@ std::string page(const Outcome& outcome, const PageFacts& facts, const std::vect
   }
   data.set("findings", findings);
   data.set("subjects", subjects);
-  return pattern.render(data);
+  return reports::typeset(pattern.render(data));
 }
 
 std::string json(const Outcome& outcome, const PageFacts& facts) {

@@ -45,19 +45,21 @@ render::Chart activity_chart(const Emission& e) {
   const dem::Table& history = e.looks.record->table("history");
   render::Chart chart;
   chart.x.title = "Strain of the ends (%)";
-  chart.left.title = "Axial stress (MPa)";
-  chart.right.title = "Number so far";
-  chart.left.low = chart.right.low = 0;
-  render::Series stress = curve(history, {e.strain, "axial_stress", 100, 1e-6});
-  stress.label = "axial stress";
-  stress.colour = {0, 0, 0};
+  chart.left.title = "Number so far";
+  chart.left.low = 0;
+  // The peak of the stress, on the same axis: the stress itself has a scale of its own.
+  const render::Series stress = curve(history, {e.strain, "axial_stress", 100, 1e-6});
+  if (!stress.y.empty()) {
+    const auto peak = static_cast<std::size_t>(std::ranges::max_element(stress.y) - stress.y.begin());
+    chart.marks.push_back(
+        {.kind = render::Mark::Kind::vertical, .x = stress.x[peak], .label = "peak", .colour = {0.3, 0.3, 0.3}});
+  }
   const auto so_far = [&](std::string label, std::size_t colour, auto begin, auto end, auto time) {
     render::Series series{.label = std::move(label),
                           .x = {},
                           .y = {},
                           .colour = render::palette(colour),
-                          .line = render::line_style(colour + 1),
-                          .side = render::Side::right,
+                          .line = render::line_style(colour),
                           .y_error = {}};
     double number = 0;
     for (auto at = begin; at != end; ++at) {
@@ -67,7 +69,7 @@ render::Chart activity_chart(const Emission& e) {
     return series;
   };
   chart.series = {
-      stress, so_far("cracks", 0, e.hits.all.begin(), e.hits.all.end(), [](const analysis::Hit& h) { return h.time; }),
+      so_far("cracks", 0, e.hits.all.begin(), e.hits.all.end(), [](const analysis::Hit& h) { return h.time; }),
       so_far("events", 1, e.events.begin(), e.events.end(), [](const analysis::Event& v) { return v.time; })};
   chart.legend = render::Chart::Legend::below;
   chart.height = 340;
@@ -245,8 +247,8 @@ Picture map_of(const Emission& e, double largest) {
 
 TextTable table_of(const std::vector<Emission>& all) {
   TextTable table{{"Case", "Cracks", "Events", "Cracks of the largest event", "Energy of all events (mJ)",
-                   "Over the ledger’s breaking heat", "Window (mm)", "Window (µs)", "Largest magnitude",
-                   "Complete from M", "Events from there on", "b", "Standard error of b"},
+                   "Over the heat of breaking", "Window (mm)", "Window (µs)", "Largest magnitude", "Complete from M",
+                   "Events above", "b", "Standard error of b"},
                   {}};
   for (const Emission& e : all) {
     std::size_t most = 0;
@@ -304,12 +306,11 @@ std::optional<Emission> emission_of(const SeriesCase& item, const Emitter& of) {
 void add_emission(FigureContent& content, const std::vector<Emission>& all) {
   if (all.empty()) return;
   const Emission& base = all.front();
-  content.panels.push_back(
-      {.id = "activity",
-       .caption = "Stress, cracks and events against the strain of the ends at " + base.looks.label + ".",
-       .alt = fmt::format("{} cracks are {} events.", base.hits.all.size(), base.events.size()),
-       .content = activity_chart(base),
-       .per_row = 2});
+  content.panels.push_back({.id = "activity",
+                            .caption = "Cracks and events against the strain of the ends at " + base.looks.label + ".",
+                            .alt = fmt::format("{} cracks are {} events.", base.hits.all.size(), base.events.size()),
+                            .content = activity_chart(base),
+                            .per_row = 2});
   content.panels.push_back({.id = "rate",
                             .caption = "Cracks per strain while the stress rises to its peak.",
                             .alt = "Cracks per strain against stress, up to the peak.",
@@ -357,8 +358,9 @@ void add_emission(FigureContent& content, const std::vector<Emission>& all) {
   double off = 0;
   for (const Emission& e : all) off = std::max(off, std::abs(e.energy() / e.heat - 1));
   if (std::ranges::all_of(all, [](const Emission& e) { return e.hits.own_energies; })) {
-    content.finding += fmt::format(" The energies of all events add up to the breaking heat of the ledger within {} %.",
-                                   number(100 * off, 2));
+    constexpr double rounding = 1e-6;
+    content.finding += " The energies of all events add up to the heat of breaking in the ledger";
+    content.finding += off < rounding ? "." : fmt::format(" within {} %.", number(100 * off, 2));
   } else {
     content.finding +=
         " These records were made before cracks kept what they released: the heat between two samples is shared by the "

@@ -73,11 +73,13 @@ Picture fragments_picture(const Broken& broken, double apart, const std::array<r
   Picture picture;
   picture.label = broken.label;
   render::Spheres spheres;
+  render::Point reach{};
   for (std::size_t i = 0; i < radius.size(); ++i) {
     const auto part = static_cast<std::size_t>(broken.parts.of[i]);
     render::Point at{};
     for (std::size_t k = 0; k < 3; ++k)
       at[k] = broken.place[3 * i + k] + apart * (broken.parts.all[part].centre[k] - middle[k]);
+    for (std::size_t k = 0; k < 3; ++k) reach[k] = std::max(reach[k], std::abs(at[k] - middle[k]) + radius[i]);
     spheres.centre.push_back(at);
     spheres.radius.push_back(radius[i]);
     spheres.colour.push_back(ranks[rank[part]].colour);
@@ -85,7 +87,9 @@ Picture fragments_picture(const Broken& broken, double apart, const std::array<r
   picture.scene.spheres.push_back(std::move(spheres));
   std::array<render::Point, 2> seen = frame;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double half = 0.5 * (frame[1][k] - frame[0][k]) * (1 + apart);
+    // What flew off is seen as well, unless it flew far.
+    const double least = 0.5 * (frame[1][k] - frame[0][k]) * (1 + apart);
+    const double half = std::clamp(reach[k], least, 1.5 * least);
     seen[0][k] = middle[k] - half;
     seen[1][k] = middle[k] + half;
   }
@@ -200,9 +204,14 @@ TextTable fragments_table(const std::vector<Broken>& cases) {
 std::string fragments_words(const Broken& broken) {
   const std::size_t main = broken.parts.of_at_least(large), single = broken.parts.single(),
                     smaller = broken.parts.all.size() - single - main;
-  return fmt::format("{}: {} above 5 % of the volume, the largest with {}; {} smaller and {} single particles",
-                     broken.label, main == 1 ? "one part" : fmt::format("{} parts", main),
-                     percent(broken.parts.share(0), 0), smaller, single);
+  const auto counted = [](std::size_t n, std::string_view one) {
+    return n == 0   ? fmt::format("no {}s", one)
+           : n == 1 ? fmt::format("one {}", one)
+                    : fmt::format("{} {}s", count(static_cast<double>(n)), one);
+  };
+  return fmt::format("{}: {} above 5 % of the volume, the largest with {}, {} and {}", broken.label,
+                     counted(main, "part"), percent(broken.parts.share(0), 0), counted(smaller, "smaller part"),
+                     counted(single, "single particle"));
 }
 
 }  // namespace reports

@@ -33,6 +33,12 @@ std::vector<SeriesCase> series_of(const StudyResult& study, std::string_view tes
   return cases;
 }
 
+std::vector<std::string> labels_of(const std::vector<SeriesCase>& cases) {
+  std::vector<std::string> labels;
+  for (const SeriesCase& one : cases) labels.push_back(one.label);
+  return labels;
+}
+
 std::vector<analysis::Point> points_of(const std::vector<SeriesCase>& cases) { return {cases.begin(), cases.end()}; }
 
 render::Series means(const std::vector<SeriesCase>& cases, const ValueOf& value) {
@@ -55,6 +61,44 @@ std::optional<analysis::LineFit> trend_of(const std::vector<SeriesCase>& cases, 
   return analysis::trend(points_of(cases), value);
 }
 
+namespace {
+
+std::string p_words(const analysis::LineFit& fit) {
+  return fit.p_value < 0.001 ? "≤ 0.001" : "= " + number(fit.p_value, 2);
+}
+
+}  // namespace
+
+void add_trends(FigureContent& content, const std::vector<Trend>& trends, const dem::Parameter& axis) {
+  TextTable table{{"Cracks", "Slope per " + std::string(axis.step), "95 % interval", "p"}, {}};
+  std::vector<std::string> rising, falling, unclear;
+  for (const auto& [name, fit] : trends) {
+    if (!fit) continue;
+    const double slope = fit->slope.value;
+    const bool known = fit->slope.has_interval();
+    const std::string p = known ? p_words(*fit) : "";
+    table.rows.push_back({name, number(slope, 2),
+                          known ? number(fit->slope.low, 2) + " to " + number(fit->slope.high, 2) : "–",
+                          p.starts_with("= ") ? p.substr(2) : p});
+    const bool clear = known && fit->p_value <= 0.05;
+    (!clear ? unclear : slope < 0 ? falling : rising).push_back(name);
+  }
+  if (table.rows.empty()) return;
+  content.panels.push_back(
+      {.id = "trends",
+       .caption = "Straight lines through the numbers of cracks, along " + std::string(axis.words) + ".",
+       .alt = "",
+       .content = table,
+       .per_row = 1});
+  std::vector<std::string> said;
+  if (!rising.empty()) said.push_back(listed(rising) + " cracks become more");
+  if (!falling.empty()) said.push_back(listed(falling) + " cracks become fewer");
+  if (!unclear.empty())
+    said.push_back(rising.empty() && falling.empty() ? "no class of cracks shows a clear trend"
+                                                     : listed(unclear) + " cracks show no clear trend");
+  content.finding += " Along " + std::string(axis.words) + ", " + joined(said, "; ") + ".";
+}
+
 std::string trend_words(const std::vector<SeriesCase>& cases, const ValueOf& value, std::string_view unit,
                         const dem::Parameter& axis) {
   const auto fit = trend_of(cases, value);
@@ -66,8 +110,7 @@ std::string trend_words(const std::vector<SeriesCase>& cases, const ValueOf& val
     return fmt::format("{} by {}{} between two points", slope < 0 ? "falls" : "rises", number(std::abs(slope), 2), of);
   }
   const std::string interval =
-      fmt::format("95 % interval {} to {}, p = {}", number(fit->slope.low, 2), number(fit->slope.high, 2),
-                  fit->p_value < 0.001 ? "0.001 or less" : number(fit->p_value, 2));
+      fmt::format("95 % interval {} to {}, p {}", number(fit->slope.low, 2), number(fit->slope.high, 2), p_words(*fit));
   if (fit->p_value > 0.05) return fmt::format("shows no clear trend: slope {}{} ({})", number(slope, 2), of, interval);
   return fmt::format("{} by {}{} ({})", slope < 0 ? "falls" : "rises", number(std::abs(slope), 2), of, interval);
 }

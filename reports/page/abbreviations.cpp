@@ -6,10 +6,15 @@ namespace reports {
 namespace {
 
 constexpr std::array known{
-    Abbreviation{"AR", "aspect ratio of the grains"}, Abbreviation{"UCS", "uniaxial compressive strength"},
-    Abbreviation{"TS", "tensile strength"},           Abbreviation{"σci", "crack initiation stress"},
-    Abbreviation{"σ_ci", "crack initiation stress"},  Abbreviation{"σcd", "crack damage stress"},
-    Abbreviation{"σ_cd", "crack damage stress"},      Abbreviation{"σ₃", "confining pressure"},
+    Abbreviation{"AR", "aspect ratio of the grains"},
+    Abbreviation{"UCS", "uniaxial compressive strength"},
+    Abbreviation{"TS", "tensile strength"},
+    Abbreviation{"σci", "crack initiation stress"},
+    Abbreviation{"σ_ci", "crack initiation stress"},
+    Abbreviation{"σcd", "crack damage stress"},
+    Abbreviation{"σ_cd", "crack damage stress"},
+    Abbreviation{"σ₃", "confining pressure"},
+    Abbreviation{"σₙ", "normal stress"},
     Abbreviation{"IQR", "interquartile range"},
 };
 

@@ -12,6 +12,7 @@
 #include "reports/page/citations.h"
 #include "reports/page/downloads.h"
 #include "reports/page/page_parts.h"
+#include "reports/page/typeset.h"
 #include "reports/published/papers.h"
 #include "reports/text.h"
 
@@ -29,12 +30,15 @@ Json asset(const std::filesystem::path& file) {
   }
 }
 
-/// Those that are not about the paper's rock, where another one is studied.
+/// Without those about the paper's rock, where another one is studied, and those about a test that the study does not have.
 Json about(const StudyResult& study, const Json& entries) {
   Json kept = Json::array();
   for (Json one : entries) {
     if (one.contains("rock") && !study.of_a_paper) continue;
     one.erase("rock");
+    const std::string test = one.value("test", "");
+    if (!test.empty() && std::ranges::none_of(study.cases, [&](const auto& c) { return c.test() == test; })) continue;
+    one.erase("test");
     kept.push_back(std::move(one));
   }
   return kept;
@@ -51,12 +55,13 @@ PageData list_of(const Json& items) {
   return list;
 }
 
-// What a reader meets before the figures and in them.
-std::string texts_of(const StudyResult& study, const Comparisons& comparisons,
-                     const std::vector<DrawnFigure>& figures) {
+// What a reader meets.
+std::string texts_of(const StudyResult& study, const Comparisons& comparisons, const std::vector<DrawnFigure>& figures,
+                     const Json& choices) {
   std::string text;
   const auto add = [&](std::string_view more) { text += std::string(more) + "\n"; };
   for (const CaseResult& one : study.cases) add(case_label(study, one));
+  for (const Json& choice : choices) add(choice.value("text", ""));
   for (const Comparison& row : comparisons.rows) add(row.quantity + " " + row.statement);
   for (const DrawnFigure& figure : figures) {
     add(figure.statement + " " + figure.finding);
@@ -198,7 +203,7 @@ std::string page(const StudyResult& study, const Comparisons& comparisons, const
   data.set("findings", findings_data(study, comparisons, figures));
   data.set("results", results_data(study, false));
   PageData abbreviations{PageData::type::list};
-  const auto used = abbreviations_in(texts_of(study, comparisons, figures));
+  const auto used = abbreviations_in(texts_of(study, comparisons, figures, choices));
   for (std::size_t i = 0; i < used.size(); ++i) {
     PageData one;
     one.set("symbol", std::string(used[i].symbol));
@@ -214,12 +219,14 @@ std::string page(const StudyResult& study, const Comparisons& comparisons, const
   data.set("laboratory", laboratory);
   data.set("figures", figures_data(figures, images == Images::embedded ? options.folder : std::filesystem::path()));
   set_diagnostics(data, study);
-  data.set("notes", notes_data(study));
+  const PageData notes = notes_data(study);
+  data.set("has_notes", !notes.is_empty_list());
+  data.set("notes", notes);
   data.set("choices", list_of(choices));
   set_citations(data, study, options);
   set_again(data, scenario, options);
   data.set("since", images == Images::embedded ? options.since_reference.shown : options.since_reference.printed);
-  return pattern.render(data);
+  return typeset(pattern.render(data));
 }
 
 }  // namespace reports

@@ -57,9 +57,6 @@ std::vector<LegendEntry> counts_of(std::vector<LegendEntry> legend) {
   return legend;
 }
 
-/// No picture is printed higher, mm: rows that high leave no page a third empty.
-constexpr double highest_picture = 74;
-
 /// In mm. Charts are drawn for their width in print, so that their text has its size there; a scene is as wide as its place,
 /// up to that height.
 double print_width(const DrawnPanel& panel) {
@@ -88,6 +85,61 @@ std::vector<Download> downloads_of(const DrawnPanel& panel, const std::filesyste
   return all;
 }
 
+// "12.5", "−3", "≥ 3770", "0.61 (0.4 to 0.8)", "−8 to 10", "134 / 0"; not "AR 1" or "0.1 % strain".
+bool is_number(std::string_view text) {
+  for (const std::string_view before : {"≥ ", "≤ ", "< ", "−", "+"}) {
+    if (text.starts_with(before)) text.remove_prefix(before.size());
+  }
+  std::string rest(text.substr(0, text.find('(')));
+  if (const std::size_t to = rest.find(" to "); to != std::string::npos) rest.erase(to, 4);
+  return !text.empty() && text[0] >= '0' && text[0] <= '9' &&
+         std::ranges::none_of(rest, [](char c) { return c >= 'a' && c <= 'z'; });
+}
+
+// Columns of numbers: their figures stand below each other.
+std::vector<bool> number_columns(const TextTable& table) {
+  std::vector<bool> numbers(table.head.size(), false);
+  for (std::size_t column = 1; column < numbers.size(); ++column) {
+    std::size_t some = 0, others = 0;
+    for (const auto& row : table.rows) {
+      if (column >= row.size() || row[column].empty() || row[column] == "–") continue;
+      (is_number(row[column]) ? some : others) += 1;
+    }
+    numbers[column] = some > others;
+  }
+  return numbers;
+}
+
+void set_table(PageData& data, const TextTable& table) {
+  constexpr std::size_t brief = 20;  // bytes of a name that stays in one line
+  const std::vector<bool> numbers = number_columns(table);
+  PageData head = new_list();
+  for (std::size_t i = 0; i < table.head.size(); ++i) {
+    PageData item{"cell", table.head[i]};
+    item.set("named", !table.head[i].empty());
+    item.set("number", static_cast<bool>(numbers[i]));
+    head.push_back(item);
+  }
+  PageData rows = new_list();
+  for (const auto& row : table.rows) {
+    if (row.empty()) continue;
+    PageData values = new_list();
+    for (std::size_t i = 1; i < row.size(); ++i) {
+      PageData item{"cell", row[i].empty() ? "–" : row[i]};
+      item.set("number", i < numbers.size() && numbers[i]);
+      values.push_back(item);
+    }
+    PageData one;
+    one.set("name", row.front());
+    one.set("named", !row.front().empty());
+    one.set("brief", row.front().size() <= brief);
+    one.set("cells", values);
+    rows.push_back(one);
+  }
+  data.set("table_head", head);
+  data.set("table_rows", rows);
+}
+
 /// `figure`: "Figure 5".
 PageData panel_data(const DrawnPanel& panel, const std::string& figure, const std::filesystem::path& folder,
                     const Shared& shared) {
@@ -98,12 +150,17 @@ PageData panel_data(const DrawnPanel& panel, const std::string& figure, const st
   data.set("has_letter", !panel.letter.empty());
   data.set("caption", shared.caption ? "" : panel.caption);
   data.set("alt", whose + ": " + panel.alt);
-  data.set("label", panel.label);
+  data.set("label", capital(panel.label));
   data.set("has_label", !panel.label.empty());
   data.set("note", panel.note);
   data.set("has_note", !panel.note.empty());
   data.set("has_image", !panel.image.empty());
-  data.set("shape", panel.height > panel.width * 3 / 2 ? "tall" : "wide-shape");
+  // Beside a slim picture there is room for its caption and its key in print.
+  constexpr double slim = 36, apart = 2;  // mm
+  const bool tall = panel.height > panel.width * 3 / 2;
+  data.set("slim", tall && print_width(panel) <= slim);
+  data.set("beside", fmt::format("{:.1f}", print_width(panel) + apart));
+  data.set("shape", !tall ? "wide-shape" : print_width(panel) <= slim ? "tall slim" : "tall");
   if (!panel.image.empty()) {
     data.set("image", folder.empty() ? panel.image : data_uri(folder / panel.image));
     data.set("has_print_width", panel.width > 0 && panel.height > 0);
@@ -117,15 +174,10 @@ PageData panel_data(const DrawnPanel& panel, const std::string& figure, const st
   data.set("bar_percent", fmt::format("{:.2f}", panel.bar.percent));
   const std::vector<LegendEntry> legend = shared.legend ? counts_of(panel.legend) : panel.legend;
   data.set("has_legend", !legend.empty());
+  data.set("counted", std::ranges::any_of(legend, [](const LegendEntry& one) { return !one.count.empty(); }));
   data.set("legend", legend_data(legend));
   data.set("has_table", !panel.table.head.empty());
-  data.set("table_head", head_cells(panel.table.head));
-  PageData rows = new_list();
-  for (const auto& row : panel.table.rows) {
-    if (row.empty()) continue;
-    rows.push_back(table_row(row.front(), {row.begin() + 1, row.end()}));
-  }
-  data.set("table_rows", rows);
+  set_table(data, panel.table);
   PageData files = new_list();
   for (const Download& download : folder.empty() ? std::vector<Download>{} : downloads_of(panel, folder)) {
     PageData item;
@@ -197,6 +249,7 @@ PageData rows_data(const DrawnFigure& figure, const std::filesystem::path& folde
     const bool whole = per_row == 1 && members.front().whole_width;
     row.set("per_row", alone ? "lone" : std::to_string(per_row) + (whole ? " whole" : ""));
     row.set("panels", list);
+    row.set("tabled", !members.front().table.head.empty());
     row.set("has_shared", shared.caption || !key.empty());
     row.set("has_shared_caption", shared.caption);
     row.set("letters", members.front().letter + "–" + members.back().letter);

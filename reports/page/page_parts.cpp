@@ -12,6 +12,7 @@
 #include "engine/analysis/statistics.h"
 #include "engine/core/files.h"
 #include "engine/model/quantities.h"
+#include "reports/granite.h"
 #include "reports/page/page.h"
 #include "reports/page/page_tables.h"
 #include "reports/provenance.h"
@@ -20,11 +21,6 @@
 
 namespace reports {
 namespace {
-
-std::string capital(std::string text) {
-  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
-  return text;
-}
 
 /// Cases with a record, by test, in report order.
 std::vector<std::pair<std::string, std::vector<const CaseResult*>>> by_test(const StudyResult& study) {
@@ -41,6 +37,15 @@ std::vector<std::pair<std::string, std::vector<const CaseResult*>>> by_test(cons
 
 using analysis::Repeats;  // a column of the results
 
+/// Of all repeats that have the result.
+std::vector<double> values_of(const Repeats& repeats, std::string_view id) {
+  std::vector<double> values;
+  for (const CaseResult* result : repeats) {
+    if (const double* value = result->record->find_result(id)) values.push_back(*value);
+  }
+  return values;
+}
+
 /// In its shown unit, without it; in powers of ten where another value of its row needs them.
 std::string shown_result(const dem::Quantity& quantity, double value, bool powers = false) {
   if (!std::isfinite(value)) return "–";
@@ -54,20 +59,21 @@ std::string with_unit(const std::string& amount, const std::string& unit) {
   return unit.empty() ? amount : amount + (unit.starts_with("10") ? " × " : " ") + unit;
 }
 
+// Those of the first case, and of the first whose specimen has another form.
 std::string specimen_text(const StudyResult& study) {
+  std::string text, said;
   for (const CaseResult& result : study.cases) {
-    if (!result.record) continue;
-    const dem::Table* particles = result.record->find("particles");
+    const dem::Table* particles = result.record ? result.record->find("particles") : nullptr;
     if (!particles) continue;
-    const std::string diameter = particles->attribute("diameter");
-    const std::string height = particles->attribute("height");
-    std::string text = count(static_cast<double>(particles->rows())) + " particles";
-    if (!diameter.empty() && !height.empty()) {
-      text = fmt::format("{:g} mm × {:g} mm, {}", 1e3 * std::stod(diameter), 1e3 * std::stod(height), text);
-    }
-    return text;
+    const std::string size = texture::specimen_words(study, result);
+    if (!text.empty() && (size == said || size.empty())) continue;
+    const std::string shown =
+        (size.empty() ? "" : size + ", ") + count(static_cast<double>(particles->rows())) + " particles";
+    text += (text.empty() ? "" : "; ") + shown;
+    if (!said.empty()) break;
+    said = size;
   }
-  return {};
+  return text;
 }
 
 std::string published_text(const Comparison& row) {
@@ -91,6 +97,9 @@ std::string computed_text(const Comparison& row) {
     const auto figures =
         static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return c >= '0' && c <= '9'; }));
     if (std::abs(*published) >= 1) digits = std::max(digits, figures);
+    // Of a count, ours is a mean of seeds: no more than one decimal.
+    if (row.unit.empty() && std::floor(*published) == *published && std::abs(*published) >= 100 && std::abs(ours) >= 1)
+      digits = std::min(digits, static_cast<std::size_t>(std::floor(std::log10(std::abs(ours)))) + 2);
   }
   return with_unit(number(ours, static_cast<int>(digits)), row.unit);
 }
@@ -108,6 +117,7 @@ std::string difference_unit(const std::string& unit) { return unit == "%" ? "poi
 
 std::string deviation_text(const Comparison& row) {
   if (!row.deviation) return "–";
+  if (*row.deviation == 0 && std::holds_alternative<std::pair<double, double>>(row.published)) return "within";
   if (row.relative) return with_sign(fixed(100 * *row.deviation, 1)) + " %";
   return with_unit(with_sign(number(*row.deviation, 2)), difference_unit(row.unit));
 }
@@ -127,23 +137,58 @@ double last_finite(std::span<const double> values) {
   return 0;
 }
 
-std::optional<PageData> ledger_table(const StudyResult& study, const std::vector<const CaseResult*>& group,
-                                     const std::string& test) {
-  std::vector<const CaseResult*> kept;
+/// Parts of at most `widest` members, as even as can be: where each begins, and how many it has.
+std::vector<std::pair<std::size_t, std::size_t>> even_parts(std::size_t members, std::size_t widest) {
+  std::vector<std::pair<std::size_t, std::size_t>> parts;
+  const std::size_t count = (members + widest - 1) / widest;
+  for (std::size_t left = count, from = 0; left > 0; --left) {
+    const std::size_t share = (members - from + left - 1) / left;
+    parts.emplace_back(from, share);
+    from += share;
+  }
+  return parts;
+}
+
+/// Heads that would stand in many narrow lines become letters, in a table that begins with column `from`; what these mean: "A: AR 1; B: AR 1, growth most contacts."
+std::string shorten_heads(std::vector<std::string>& heads, std::size_t from) {
+  constexpr std::size_t few = 4, longest = 24;
+  const bool wide = std::ranges::any_of(heads, [](const std::string& head) { return head.size() > longest; });
+  if (heads.size() < few || !wide) return {};
+  std::vector<std::string> meanings;
+  for (std::size_t i = 0; i < heads.size(); ++i) {
+    const std::string letter(1, static_cast<char>('A' + (from + i) % 26));
+    meanings.push_back(letter + ": " + heads[i]);
+    heads[i] = letter;
+  }
+  return joined(meanings, "; ") + ".";
+}
+
+/// Cases of one test that have a ledger, and their largest energy: all tables of a test have one unit.
+struct Ledgers {
+  std::vector<const CaseResult*> cases;
   double largest = 0;
+};
+
+Ledgers ledgers_of(const std::vector<const CaseResult*>& group) {
+  Ledgers all;
   for (const CaseResult* result : group) {
     const dem::Table* history = result->record->find("history");
     if (!history || analysis::ledger_terms(*history).empty()) continue;
-    kept.push_back(result);
+    all.cases.push_back(result);
     for (const analysis::LedgerTerm& term : analysis::ledger_terms(*history)) {
-      largest = std::max(largest, std::abs(last_finite(history->real(term.column))));
+      all.largest = std::max(all.largest, std::abs(last_finite(history->real(term.column))));
     }
   }
-  if (kept.empty()) return std::nullopt;
+  return all;
+}
+
+PageData ledger_table(const StudyResult& study, std::span<const CaseResult* const> kept, std::size_t from,
+                      double largest, const std::string& test) {
   const bool bare = analysis::in_elastic_constants(kept.front()->record->table("history"));
   const auto [factor, unit] = bare ? std::pair<double, std::string>{1e6, "10⁻⁶ k box²"} : energy_unit(largest);
   std::vector<std::string> heads;
   for (const CaseResult* result : kept) heads.push_back(case_label(study, *result));
+  const std::string key = shorten_heads(heads, from);
   PageData rows = new_list();
   const auto add = [&rows](const std::string& label, const std::vector<std::string>& values, bool strong) {
     PageData row = table_row(label, values);
@@ -183,6 +228,8 @@ std::optional<PageData> ledger_table(const StudyResult& study, const std::vector
   PageData table;
   table.set("test", capital(test));
   table.set("unit", unit);
+  table.set("key", key);
+  table.set("lettered", !key.empty());
   table.set("heads", cells(heads));
   table.set("rows", rows);
   return table;
@@ -361,17 +408,20 @@ std::string lower(std::string text) {
   return text;
 }
 
-// What the first case of each test gave: "Compression, AR 1: Young’s modulus 68.2 GPa, ...; direct tension: ..."
+// What the first case of each test gave, as the mean of its seeds: "Compression, AR 1: Young’s modulus 68.2 GPa, ...".
 std::string headline(const StudyResult& study) {
   constexpr std::size_t most = 3;  // results of a test
   std::vector<std::string> tests;
   for (const auto& [test, group] : by_test(study)) {
-    auto results = group.front()->record->results;
-    std::ranges::stable_partition(results,
-                                  [](const auto& one) { return one.first.find("strength") != std::string::npos; });
+    const Repeats repeats = analysis::repeats_of(group).front();
+    const CaseResult& first = *repeats.front();
+    std::vector<std::string> ids;
+    for (const auto& [id, value] : first.record->results) ids.push_back(id);
+    std::ranges::stable_partition(ids, [](const auto& id) { return id.find("strength") != std::string::npos; });
     std::vector<std::string> said;
-    for (const auto& [id, value] : results) {
+    for (const std::string& id : ids) {
       const dem::Quantity& quantity = dem::find_quantity(study.quantities, id);
+      const double value = analysis::spread(values_of(repeats, id)).mean;
       if (quantity.kind != dem::QuantityKind::result || quantity.family() || quantity.of_size || !std::isfinite(value))
         continue;
       if (said.size() == most) break;
@@ -380,9 +430,10 @@ std::string headline(const StudyResult& study) {
                      (unit.empty() ? "" : " " + std::string(unit)));
     }
     if (said.empty()) continue;
-    const std::string label = case_label(study, *group.front());
-    const bool alone = label == capital(words(group.front()->id));
-    tests.push_back((tests.empty() ? capital(test) : test) + (alone ? "" : ", " + label) + ": " + listed(said));
+    const std::string label = case_label(study, first);
+    const bool alone = label == capital(words(first.id));
+    tests.push_back((tests.empty() ? capital(test) : test) + (alone ? "" : ", " + label) +
+                    (repeats.size() > 1 ? fmt::format(", mean of {} seeds: ", repeats.size()) : ": ") + listed(said));
   }
   return tests.empty() ? "" : joined(tests, "; ") + ".";
 }
@@ -456,16 +507,31 @@ PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
 
 namespace {
 
+// "15.8 ± 0.6", "1.020 ± 0.002", "(1.7 ± 0.4) × 10⁻⁵": both with the decimals of the mean's digits, or as many as the first
+// digit of the deviation needs.
+std::string mean_text(const dem::Quantity& quantity, const analysis::Spread& spread, bool powers) {
+  const double mean = quantity.factor * spread.mean, deviation = std::abs(quantity.factor) * spread.deviation;
+  const auto exponent = [](double value) { return static_cast<int>(std::floor(std::log10(std::abs(value)))); };
+  if (powers && mean != 0) {
+    const double unit = std::pow(10.0, exponent(mean));
+    const int places = std::max(quantity.digits - 1, -exponent(deviation / unit));
+    return fmt::format("({} ± {}) × {}", fixed(mean / unit, places), fixed(deviation / unit, places),
+                       power_of_ten(exponent(mean)));
+  }
+  const bool counted = quantity.kind == dem::QuantityKind::count;
+  const int of_mean = mean == 0 || (counted && std::abs(mean) >= 10) ? 0
+                      : counted                                      ? 1
+                                : std::max(0, quantity.digits - 1 - exponent(mean));
+  const int places = std::max({0, of_mean, -exponent(deviation)});
+  return fixed(mean, places) + " ± " + fixed(deviation, places);
+}
+
 // The value of one case, or mean and standard deviation of several.
 std::string result_text(const Repeats& column, std::string_view id, const dem::Quantity& quantity, bool powers) {
-  std::vector<double> values;
-  for (const CaseResult* result : column) {
-    if (const double* value = result->record->find_result(id)) values.push_back(*value);
-  }
-  const analysis::Spread spread = analysis::spread(values);
+  const analysis::Spread spread = analysis::spread(values_of(column, id));
   if (spread.count == 0) return "–";
-  if (spread.deviation == 0) return shown_result(quantity, spread.mean, powers);
-  return shown_result(quantity, spread.mean, powers) + " ± " + shown_result(quantity, spread.deviation, powers);
+  if (spread.deviation == 0 || !std::isfinite(spread.deviation)) return shown_result(quantity, spread.mean, powers);
+  return mean_text(quantity, spread, powers);
 }
 
 // Of those that figures do not show: families have as many members as the specimen has groups.
@@ -492,13 +558,14 @@ PageData results_data(const StudyResult& study, bool diagnostics) {
     const std::size_t widest = repeated ? 4 : 8;  // columns that fit on a page
     const std::vector<std::string> ids = results_of(group, study, diagnostics);
     if (ids.empty()) continue;
-    for (std::size_t from = 0; from < columns.size(); from += widest) {
-      const std::span<const Repeats> shown(columns.data() + from, std::min(widest, columns.size() - from));
+    for (const auto& [from, members] : even_parts(columns.size(), widest)) {
+      const std::span<const Repeats> shown(columns.data() + from, members);
       std::vector<std::string> heads;
       for (const Repeats& column : shown) {
         heads.push_back(case_label(study, *column.front()) +
                         (column.size() > 1 ? fmt::format(" ({} seeds)", column.size()) : ""));
       }
+      const std::string key = shorten_heads(heads, from);
       PageData rows = new_list();
       for (const std::string& id : ids) {
         const dem::Quantity& quantity = dem::find_quantity(study.quantities, id);
@@ -511,7 +578,9 @@ PageData results_data(const StudyResult& study, bool diagnostics) {
         rows.push_back(table_row(axis_title(quantity), values));
       }
       PageData table;
-      table.set("test", capital(test.empty() ? "results" : words(test)));
+      table.set("test", capital(test.empty() ? "results" : words(test)) + ".");
+      table.set("key", joined_notes({repeated ? "Of several seeds, mean ± standard deviation." : "", key}));
+      table.set("lettered", !key.empty());
       table.set("heads", cells(heads));
       table.set("rows", rows);
       tables.push_back(table);
@@ -630,21 +699,19 @@ PageData laboratory_data(const StudyResult& study) {
 }
 
 PageData ledger_data(const StudyResult& study) {
+  constexpr std::size_t widest = 8;  // columns that fit on a page
   PageData list = new_list();
   for (const auto& [test, group] : by_test(study)) {
-    constexpr std::size_t widest = 7;  // columns that fit on a page
-    for (std::size_t from = 0; from < group.size(); from += widest) {
-      const auto to = std::min(group.size(), from + widest);
-      const std::vector<const CaseResult*> shown(group.begin() + static_cast<std::ptrdiff_t>(from),
-                                                 group.begin() + static_cast<std::ptrdiff_t>(to));
-      if (const auto table = ledger_table(study, shown, test)) list.push_back(*table);
-    }
+    const Ledgers all = ledgers_of(group);
+    const std::span<const CaseResult* const> cases(all.cases);
+    for (const auto& [from, count] : even_parts(cases.size(), widest))
+      list.push_back(ledger_table(study, cases.subspan(from, count), from, all.largest, test));
   }
   return list;
 }
 
 PageData checks_data(const StudyResult& study) {
-  // By check, so that its meaning is said once.
+  // By check, so that its name and its meaning are said once.
   std::vector<std::pair<const CaseResult*, const dem::Check*>> all;
   for (const CaseResult& result : study.cases) {
     if (!result.record) continue;
@@ -652,24 +719,28 @@ PageData checks_data(const StudyResult& study) {
   }
   std::ranges::stable_sort(all, {}, [](const auto& entry) { return entry.second->id; });
   PageData list = new_list();
-  std::string_view last;
-  for (const auto& [result, entry] : all) {
-    const dem::Check& check = *entry;
-    PageData item;
-    item.set("case", result->id);
-    item.set("check", capital(check_name(check.id)));
-    item.set("meaning", check.meaning);
-    item.set("has_meaning", check.id != last);
-    last = check.id;
-    const bool powers = std::ranges::any_of(all, [&](const auto& other) {
-      return other.second->id == check.id && (needs_powers(other.second->value) || needs_powers(other.second->limit));
-    });
+  for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+    const dem::Check& first = *all[begin].second;
+    while (end < all.size() && all[end].second->id == first.id) ++end;
+    const std::span members(all.data() + begin, end - begin);
+    const bool powers = std::ranges::any_of(
+        members, [](const auto& one) { return needs_powers(one.second->value) || needs_powers(one.second->limit); });
     const auto amount = [&](double value) { return powers ? scientific(value, 2) : number(value, 2); };
-    item.set("value", amount(check.value));
-    item.set("limit", amount(check.limit));
-    item.set("verdict", check.held ? "held" : "broken");
-    item.set("verdict_class", check.held ? "met" : "missed");
-    list.push_back(item);
+    PageData rows = new_list();
+    for (const auto& [result, check] : members) {
+      PageData item;
+      item.set("case", result->id);
+      item.set("value", amount(check->value));
+      item.set("limit", amount(check->limit));
+      item.set("verdict", check->held ? "held" : "broken");
+      item.set("verdict_class", check->held ? "met" : "missed");
+      rows.push_back(item);
+    }
+    PageData group;
+    group.set("check", capital(check_name(first.id)));
+    group.set("meaning", first.meaning);
+    group.set("rows", rows);
+    list.push_back(group);
   }
   return list;
 }

@@ -16,17 +16,6 @@ namespace reports {
   return list;
 }
 
-/// Those of a head; "named" is false for an empty one, which heads nothing.
-[[nodiscard]] inline PageData head_cells(const std::vector<std::string>& texts) {
-  PageData list = new_list();
-  for (const std::string& text : texts) {
-    PageData item{"cell", text};
-    item.set("named", !text.empty());
-    list.push_back(item);
-  }
-  return list;
-}
-
 [[nodiscard]] inline PageData table_row(const std::string& name, const std::vector<std::string>& values) {
   PageData row;
   row.set("name", name);

@@ -146,7 +146,7 @@ void compare_trend(const Terms& terms, const Json& entry, const Json& term, Comp
     row.detail += fmt::format("; a change of {}, where half the loading rate makes {}", percent(change, 1),
                               percent(resolution, 0));
   }
-  const bool unclear = slope.value.has_interval() || change < resolution;
+  const bool unclear = slope.value.has_interval() || change < resolution || !steady;
   row.computed = row.outcome == Verdict::undecided && unclear ? "no clear trend" : word;
   row.estimate = slope.value;
   row.p_value = slope.p_value;

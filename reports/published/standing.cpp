@@ -28,7 +28,7 @@ std::string counts_text(const Tally& counts) {
   for (const auto& [number, word] :
        {std::pair{counts.missed, "missed"}, {counts.undecided, "undecided"}, {counts.not_computed, "not computed"}}) {
     if (number == 0 || all < 2) continue;
-    parts.push_back(number == all   ? fmt::format("all {} {}", all, word)
+    parts.push_back(number == all   ? (all == 2 ? "both " : fmt::format("all {} ", all)) + word
                     : parts.empty() ? fmt::format("{} of {} {}", number, all, word)
                                     : fmt::format("{} {}", number, word));
   }

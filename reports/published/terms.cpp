@@ -51,7 +51,7 @@ std::string case_words(std::span<const dem::Parameter> declared, const dem::Para
 
 double combined(const Json& term, const std::vector<double>& parts) {
   if (term.contains("quotient")) {
-    if (parts.at(1) == 0) throw NotComputed{"division by zero"};
+    if (parts.at(1) == 0) throw NotComputed{"the denominator is zero"};
     return parts.at(0) / parts.at(1);
   }
   if (term.contains("difference")) return parts.at(0) - parts.at(1);
@@ -114,7 +114,7 @@ bool Terms::of_size(const Json& term) const {
 analysis::Estimate Terms::fitted(const Json& term) const {
   const std::string name = term.at("fit").get<std::string>(), mineral = term.value("mineral", "");
   const auto found = fitted_value(study_, name, mineral);
-  if (!found) throw NotComputed{"too few pressures to fit " + (mineral.empty() ? "" : mineral + ", ") + name};
+  if (!found) throw NotComputed{"too few confining pressures for a fit" + (mineral.empty() ? "" : " of " + mineral)};
   return *found;
 }
 

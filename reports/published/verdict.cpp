@@ -84,7 +84,10 @@ std::string tally_text(const Tally& counts, std::string_view scale) {
   const int all = counts.numbers();
   std::string text;
   if (all > 0 && counts.not_judged == all) {
-    text = fmt::format("None of {} published numbers and trends is judged: they belong to the scale “{}”.", all, scale);
+    text = all == 1
+               ? fmt::format("The one published number is not judged: it belongs to the scale “{}”.", scale)
+               : fmt::format("None of the {} published numbers and trends is judged: they belong to the scale “{}”.",
+                             all, scale);
   } else if (all > 0) {
     std::vector<std::string> parts;
     const auto say = [&](int number, std::string_view what, bool always = false) {
@@ -97,8 +100,8 @@ std::string tally_text(const Tally& counts, std::string_view scale) {
     say(counts.undecided, "undecided");
     say(counts.not_judged, fmt::format("not judged (scale “{}”)", scale));
     say(counts.not_computed, "not computed");
-    text = all == 1 ? fmt::format("Of one published number {}.", listed(parts))
-                    : fmt::format("Of {} published numbers and trends {}.", all, listed(parts));
+    text = all == 1 ? fmt::format("Of one published number, {}.", listed(parts))
+                    : fmt::format("Of {} published numbers and trends, {}.", all, listed(parts));
   }
   std::vector<std::string> apart;
   if (counts.fitted > 0) apart.push_back(fmt::format("{} to which a choice was fitted", counts.fitted));

@@ -128,10 +128,13 @@ TEST_CASE("figures under confinement say what the records hold") {
   CHECK(has(reports::texture::confinement_curves(made.study()).finding, "206"));
   CHECK(reports::texture::crack_orientation(made.study()).panels.size() == 3);
   const auto counts = reports::texture::confinement_crack_counts(made.study());
-  CHECK(counts.panels.size() == 2);
-  CHECK(std::ranges::all_of(counts.panels, [](const reports::Panel& p) {
-    return std::get<render::Chart>(p.content).x.title.find("σ₃") != std::string::npos;
-  }));
+  REQUIRE(counts.panels.size() == 3);
+  for (const std::size_t chart : {0, 1})
+    CHECK(has(std::get<render::Chart>(counts.panels[chart].content).x.title, "σ₃"));
+  const auto& slopes = std::get<reports::TextTable>(counts.panels[2].content);
+  CHECK(slopes.head[1] == "Slope per MPa of confining pressure");
+  CHECK(slopes.rows.size() == 4);
+  CHECK(has(counts.finding, "Along the confining pressure, "));
 }
 
 TEST_CASE("a plateau that the start of the platens leaves uneven is told") {

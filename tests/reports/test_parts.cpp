@@ -13,6 +13,7 @@
 #include "reports/output/summary.h"
 #include "reports/page/page.h"
 #include "reports/page/page_parts.h"
+#include "reports/page/typeset.h"
 #include "reports/text.h"
 #include "tests/reports/synthetic.h"
 #include "tests/support/scratch.h"
@@ -31,6 +32,35 @@ TEST_CASE("numbers as a reader sees them") {
   CHECK(reports::with_sign(reports::fixed(1.5, 1)) == "+1.5");
   CHECK(reports::with_sign(reports::fixed(-1.5, 1)) == "\u22121.5");
   CHECK(reports::listed({"a", "b", "c"}) == "a, b and c");
+}
+
+TEST_CASE("a page is set in type: indices, no-break spaces, degrees, apostrophes") {
+  const std::vector<std::pair<std::string, std::string>> texts = {
+      {"σci 99.40 MPa at 0.171 % strain", "σ<sub>ci</sub> 99.40~MPa at 0.171~% strain"},
+      {"E_c + E_b, R_max/R_min, σ_t,b (MPa), α_μ",
+       "E<sub>c</sub> + E<sub>b</sub>, R<sub>max</sub>/R<sub>min</sub>, "
+       "σ<sub>t,b</sub> (MPa), α<sub>μ</sub>"},
+      {"K_{n} and the K_n of it", "K<sub>n</sub> and the K<sub>n</sub> of it"},
+      {"key measure.rate_bias of ldb_texture, a_b.toml, x_y_z",
+       "key measure.rate_bias of ldb_texture, a_b.toml, x_y_z"},
+      {"Section 4.1, Fig. 14c and Eqs. 7 and 8", "Section~4.1, Fig.~14c and Eqs.~7 and 8"},
+      {"AR 1 to 3, σ₃ 10 MPa, dip 45°", "AR~1 to 3, σ₃~10~MPa, dip~45°"},
+      {"15.8 ± 0.6, p = 0.03, (1.7 ± 0.4) × 10⁻⁵ N/m", "15.8~±~0.6, p~=~0.03, (1.7~±~0.4)~×~10⁻⁵~N/m"},
+      {"6.25 mm × 12.5 mm, ± 5 °, 3 points", "6.25~mm~×~12.5~mm, ±~5°, 3~points"},
+      {"the grains&apos; ratio, the paper's own 'word'", "the grains’ ratio, the paper’s own 'word’"},
+      {"of 5 mm", "of 5~mm"},
+      {"5 more", "5 more"},
+      {"", ""}};
+  for (const auto& [plain, set] : texts) {
+    CAPTURE(plain);
+    std::string text = reports::typeset_text(plain);
+    for (std::size_t at = text.find("\u00a0"); at != std::string::npos; at = text.find("\u00a0"))
+      text.replace(at, 2, "~");
+    CHECK(text == set);
+  }
+  CHECK(
+      reports::typeset("<p title=\"σci 5 %\">σc</p><pre>E_c's</pre><span class=\"id\">a_b</span><style>a_b</style>") ==
+      "<p title=\"σci 5 %\">σ<sub>c</sub></p><pre>E_c's</pre><span class=\"id\">a_<wbr>b</span><style>a_b</style>");
 }
 
 TEST_CASE("CSV quotes what needs it and keeps every point") {

@@ -173,14 +173,14 @@ TEST_CASE("only published numbers count as met or missed") {
   CHECK(counts.fitted == 5);
   CHECK(counts.theory == 5);
   CHECK(reports::tally_text(counts, "paper") ==
-        "Of 5 published numbers and trends 1 is met, 1 missed, 1 undecided, 1 not judged (scale “paper”) and 1 not "
+        "Of 5 published numbers and trends, 1 is met, 1 missed, 1 undecided, 1 not judged (scale “paper”) and 1 not "
         "computed. Counted apart: 5 to which a choice was fitted and 5 that compare theory with theory.");
   CHECK(reports::tally_text({.met = 0, .missed = 0, .undecided = 0, .not_judged = 3}, "paper") ==
-        "None of 3 published numbers and trends is judged: they belong to the scale “paper”.");
+        "None of the 3 published numbers and trends is judged: they belong to the scale “paper”.");
   CHECK(reports::tally_text({.met = 0, .missed = 2}, "paper") ==
-        "Of 2 published numbers and trends none is met and 2 missed.");
-  CHECK(reports::tally_text({.met = 2}, "paper") == "Of 2 published numbers and trends 2 are met.");
-  CHECK(reports::tally_text({.met = 1}, "paper") == "Of one published number 1 is met.");
+        "Of 2 published numbers and trends, none is met and 2 missed.");
+  CHECK(reports::tally_text({.met = 2}, "paper") == "Of 2 published numbers and trends, 2 are met.");
+  CHECK(reports::tally_text({.met = 1}, "paper") == "Of one published number, 1 is met.");
 }
 
 constexpr const char* falls =
@@ -368,7 +368,7 @@ TEST_CASE("what stands before ours follows from the numbers that the statement s
   CHECK(standing({row("a", Verdict::missed)}) == "Disagrees.");
   CHECK(standing({row("a", Verdict::met), row("b", Verdict::missed), row("c", Verdict::undecided)}) ==
         "Disagrees (1 of 3 missed, 1 undecided).");
-  CHECK(standing({row("a", Verdict::undecided), row("b", Verdict::undecided)}) == "Undecided (all 2 undecided).");
+  CHECK(standing({row("a", Verdict::undecided), row("b", Verdict::undecided)}) == "Undecided (both undecided).");
   CHECK(standing({row("a", Verdict::met), row("b", Verdict::not_computed)}) == "Undecided (1 of 2 not computed).");
   CHECK(standing({row("a", Verdict::met, "paper")}) == "Agrees at draft scale.");
   CHECK(standing({row("a", Verdict::met, "any")}) == "Agrees.");

@@ -50,7 +50,7 @@ Panel disc_panel(const StudyResult& study, const SeriesCase& item) {
   const auto particles = static_cast<double>(item.record->table("particles").rows());
   return {
       .id = "disc_" + item.id,
-      .caption = "The disc between " + item.label + ", cut at half its thickness.",
+      .caption = "The disc, cut at half its thickness" + (item.value > 0 ? "; R is its radius." : std::string(".")),
       .alt = "A disc of " + count(particles) + " particles between " + item.label + ".",
       .content = Picture{.scene = std::move(scene), .label = item.label, .legend = mineral_legend(study, *item.record)},
       .per_row = 3};
@@ -133,6 +133,13 @@ render::Chart strengths_chart(const std::vector<Sample>& samples) {
   return chart;
 }
 
+// Of direct over Brazilian strength with the published range.
+Agreement agreement_of(const analysis::Estimate& ratio) {
+  if (!ratio.has_interval()) return Agreement::undecided;
+  if (ratio.low >= lowest && ratio.high <= highest) return Agreement::agrees;
+  return ratio.high < lowest || ratio.low > highest ? Agreement::disagrees : Agreement::undecided;
+}
+
 std::size_t first_cracks(const dem::Record& record) {
   double at_peak = 0;
   for (const dem::Quantity& one : quantity::cracks_at_peak) at_peak += record.value_or_nan(one);
@@ -160,7 +167,10 @@ FigureContent brazilian_test(const StudyResult& study) {
        .alt = "Curves of load against the tensile strain in the middle; largest loads of " + peaks + ".",
        .content = curves_of(cases, {"axial_strain", "axial_stress", 100, 1e-6}, "Tensile strain in the middle (%)")});
   const Size size = size_of(*cases.front().record);
-  content.finding = fmt::format("Discs of {:g} mm bear up to {}.", 1e3 * size.diameter, peaks);
+  content.finding =
+      fmt::format("The splitting strength of discs of {:g} mm is {} ({}{}).", 1e3 * size.height, peaks,
+                  joined(labels_of(cases), ", "),
+                  cases.front().repeats.size() > 1 ? "; means of seeds, the curves are of the first" : "");
   return content;
 }
 
@@ -176,15 +186,14 @@ FigureContent brazilian_strengths(const StudyResult& study) {
   std::vector<Sample> samples;
   const std::vector<double> tension = tension_of(study);
   if (!tension.empty()) samples.push_back({"direct tension", tension});
-  TextTable table{{"Test", "Specimens", "Strength (MPa), 95 % interval", "Direct over Brazilian, 95 % interval",
-                   "First cracks in the middle (%)"},
+  TextTable table{{"Test", "Specimens", "Strength (MPa)", "Direct over Brazilian", "First cracks in the middle (%)"},
                   {}};
   if (!tension.empty()) {
     table.rows.push_back(
         {"direct tension", std::to_string(tension.size()), estimate_text(analysis::mean_of(tension), 3, true), "", ""});
   }
   std::vector<std::string> said;
-  bool within = true, known = false;
+  std::vector<Agreement> verdicts;
   for (const SeriesCase& item : cases) {
     const std::vector<double> values = strengths(item.repeats, quantity::brazilian_strength);
     samples.push_back({item.label, values});
@@ -195,19 +204,27 @@ FigureContent brazilian_strengths(const StudyResult& study) {
                           std::isfinite(ratio.value) ? estimate_text(ratio, 2, true) : "–",
                           middle.count > 0 ? number(middle.mean, 2) : "–"});
     if (!std::isfinite(ratio.value)) continue;
-    known = true;
-    within = within && ratio.value >= lowest && ratio.value <= highest;
-    said.push_back(estimate_text(ratio, 2) + " with " + item.label);
+    verdicts.push_back(agreement_of(ratio));
+    said.push_back((ratio.has_interval() ? estimate_text(ratio, 2) : number(ratio.value, 2)) + " with " + item.label);
   }
   content.panels.push_back({.id = "strengths",
                             .caption = "Tensile strengths by test.",
                             .alt = "Brazilian strengths of " + by_case(cases, quantity::brazilian_strength, 3) + ".",
                             .content = strengths_chart(samples)});
   content.panels.push_back(
-      {.id = "table", .caption = "Strengths and their ratio.", .alt = "", .content = table, .per_row = 1});
-  if (known) {
-    content.agreement = within ? Agreement::agrees : Agreement::disagrees;
+      {.id = "table",
+       .caption = "Mean strengths and their ratio; in brackets 95 % intervals, from three specimens of each test on.",
+       .alt = "",
+       .content = table,
+       .per_row = 1});
+  if (!verdicts.empty()) {
+    const auto any = [&](Agreement verdict) { return std::ranges::find(verdicts, verdict) != verdicts.end(); };
+    content.agreement = any(Agreement::disagrees)   ? Agreement::disagrees
+                        : any(Agreement::undecided) ? Agreement::undecided
+                                                    : Agreement::agrees;
     content.finding = "Direct over Brazilian strength is " + listed(said) + ".";
+    const bool few = std::ranges::all_of(samples, [](const Sample& one) { return one.values.size() < 3; });
+    if (few) content.finding += " So few specimens give no interval.";
   } else {
     content.finding = "Brazilian strengths: " + by_case(cases, quantity::brazilian_strength, 3) + ".";
   }
@@ -230,11 +247,13 @@ FigureContent brazilian_cracks(const StudyResult& study) {
       discs.over = true;
       scene.discs.push_back(std::move(discs));
     }
+    std::vector<LegendEntry> key = crack_legend(crack_numbers(record, first));
+    for (LegendEntry& mineral : mineral_legend(study, record)) key.push_back(std::move(mineral));
     content.panels.push_back(
         {.id = "first_" + item.id,
-         .caption = fmt::format("The first {} cracks, of the whole thickness.", first),
+         .caption = fmt::format("The first {} cracks, through the whole thickness.", first),
          .alt = fmt::format("The first {} cracks: {}.", first, crack_words(crack_numbers(record, first))),
-         .content = Picture{.scene = std::move(scene), .label = item.label + ", first cracks", .legend = {}},
+         .content = Picture{.scene = std::move(scene), .label = item.label + ", first cracks", .legend = key},
          .per_row = 4});
     Picture after = section_cracks(study, record, all_cracks, item.label + ", at the end", picture_width);
     add_platens(after.scene, item);
@@ -246,7 +265,8 @@ FigureContent brazilian_cracks(const StudyResult& study) {
   }
   content.finding = "Of the first cracks " + by_case(cases, quantity::first_cracks_middle, 2) +
                     " lie within half the radius of the axis, and " + by_case(cases, quantity::first_cracks_band, 2) +
-                    " within a quarter of it of the loaded diameter; of cracks spread evenly 25 % and 31 % would.";
+                    " within a quarter of the radius of the loaded diameter (" + joined(labels_of(cases), ", ") +
+                    "); of cracks spread evenly, 25 and 31 % would.";
   return content;
 }
 

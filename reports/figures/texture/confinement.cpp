@@ -281,16 +281,8 @@ FigureContent confinement_curves(const StudyResult& study) {
        .caption = "Axial stiffness (Eq. 9) at small strains, and where it leaves its plateau.",
        .alt = "Axial stiffness; Young’s moduli of " + by_case(cases, quantity::young_modulus, 3) + ".",
        .content = stiffness});
-  content.finding = "At " +
-                    joined(
-                        [&] {
-                          std::vector<std::string> labels;
-                          for (const SeriesCase& item : cases) labels.push_back(item.label);
-                          return labels;
-                        }(),
-                        ", ") +
-                    " the peaks are " + peaks + ", and the axial stiffness leaves its plateau at strains of " +
-                    strains + ".";
+  content.finding = "At " + joined(labels_of(cases), ", ") + " the peaks are " + peaks +
+                    ", and the axial stiffness leaves its plateau at strains of " + strains + ".";
   const double departure =
       study.scenario ? study.scenario->real("measure.stiffness_departure") : std::numeric_limits<double>::infinity();
   std::vector<std::string> uneven;
@@ -323,17 +315,11 @@ FigureContent confinement_envelopes(const StudyResult& study) {
   const auto tension = tensile_strengths(study);
   std::vector<std::string> said;
   if (found.peak_fit) {
-    said.push_back("peak with σc = UCS, " + number(found.ucs, 4) + " MPa, and m " +
-                   estimate_text(found.peak_fit->m, 3));
+    said.push_back("peak with σc = UCS, " + number(found.ucs, 4) + " MPa, and m " + number(found.peak_fit->m.value, 3));
   }
   if (found.damage_fit) {
-    said.push_back("crack damage with m " + estimate_text(found.damage_fit->m, 3) + " and s " +
-                   estimate_text(found.damage_fit->s, 2));
-  }
-  for (const analysis::Initiation* one : {&found.initiation[0], &found.initiation[1]}) {
-    if (!one->fit) continue;
-    said.push_back(fmt::format("crack initiation ({}) at {} MPa with a slope of {}", one->name,
-                               estimate_text(one->fit->intercept, 3), estimate_text(one->fit->slope, 2)));
+    said.push_back("crack damage with m " + number(found.damage_fit->m.value, 3) + " and s " +
+                   number(found.damage_fit->s.value, 2));
   }
   const std::string fits = said.empty() ? "too few pressures for a fit" : joined(said, "; ");
   content.panels.push_back(
@@ -351,13 +337,16 @@ FigureContent confinement_envelopes(const StudyResult& study) {
   // Eq. 12: 0.3 to 0.5 of sigma_c, slope 1 to 1.5. Of the four readings only a stress at a set strain has a slope near 1 by itself:
   // it is sigma_3 and the elastic stress of that strain.
   const double ucs = found.ucs;
+  std::vector<std::string> inside, outside;
   for (const analysis::Initiation& one : found.initiation) {
     if (!one.fit || !std::isfinite(ucs)) continue;
     const double share = one.fit->intercept.value / ucs, slope = one.fit->slope.value;
-    content.finding += fmt::format(" By {}: {} UCS {} {} σ₃, {} the range of Eq. 12.", one.name, number(share, 2),
-                                   slope < 0 ? "−" : "+", number(std::abs(slope), 2),
-                                   laboratories.holds(share, slope) ? "inside" : "outside");
+    (laboratories.holds(share, slope) ? inside : outside)
+        .push_back(fmt::format("{} UCS {} {} σ₃ by {}", number(share, 2), slope < 0 ? "−" : "+",
+                               number(std::abs(slope), 2), one.name));
   }
+  if (!inside.empty()) content.finding += " Crack initiation inside the range of Eq. 12: " + listed(inside) + ".";
+  if (!outside.empty()) content.finding += " Outside: " + listed(outside) + ".";
   return content;
 }
 
@@ -406,7 +395,7 @@ FigureContent confinement_after_peak(const StudyResult& study) {
     const double error = analysis::spread(item, shown(quantity::servo_error)).mean;
     if (!std::isfinite(error)) continue;
     worst = std::max(worst, error);
-    servo.rows.push_back({number(item.value), number(error, 2)});
+    servo.rows.push_back({shortest(item.value), number(error, 2)});
   }
   if (!servo.rows.empty()) {
     content.panels.push_back(

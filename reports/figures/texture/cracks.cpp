@@ -88,7 +88,7 @@ render::Chart lines_by_class(const std::vector<SeriesCase>& cases, const dem::Pa
 
 std::string with_its(const std::vector<SeriesCase>& cases) {
   return std::ranges::any_of(cases, [](const SeriesCase& c) { return c.repeats.size() > 1; })
-             ? " Means of repeats; bars are one standard deviation."
+             ? " Means of seeds; whiskers are one standard deviation."
              : "";
 }
 
@@ -97,11 +97,12 @@ std::string crack_alt(const dem::Record& record, std::size_t count, const std::s
 }
 
 struct Stage {
-  std::string_view moment, name;
+  std::string_view moment, name, said;
 };
-constexpr std::array stages{Stage{"stable_growth", "Stable crack growth"}, Stage{"damage", "Crack damage"},
-                            Stage{"unstable_growth", "Unstable crack growth"}, Stage{"post_peak", "After the peak"},
-                            Stage{"end", "End of loading"}};
+constexpr std::array stages{
+    Stage{"stable_growth", "Stable crack growth", "stable growth"}, Stage{"damage", "Crack damage", "damage"},
+    Stage{"unstable_growth", "Unstable crack growth", "unstable growth"},
+    Stage{"post_peak", "After the peak", "after the peak"}, Stage{"end", "End of loading", "end"}};
 
 const dem::Table* snapshot(const dem::Record& record, std::string_view moment) {
   for (const dem::Table& table : record.tables) {
@@ -282,12 +283,10 @@ FigureContent crack_counts(const StudyResult& study) {
   }
   content.finding = found;
   if (cases.size() > 2 || !with_its(cases).empty()) {
-    std::vector<std::string> trends;
-    for (const CrackClass& one : crack_classes()) {
-      const std::string trend = trend_words(cases, number_of(one), "", axis);
-      if (!trend.empty()) trends.push_back(std::string(one.name) + " " + trend);
-    }
-    if (!trends.empty()) content.finding += " Along " + std::string(axis.words) + ": " + joined(trends, "; ") + ".";
+    std::vector<Trend> trends;
+    for (const CrackClass& one : crack_classes())
+      trends.push_back({std::string(one.name), trend_of(cases, number_of(one))});
+    add_trends(content, trends, axis);
   }
   return content;
 }
@@ -362,7 +361,7 @@ FigureContent crack_stages(const StudyResult& study) {
     const dem::Table* moment = snapshot(*base.record, stage.moment);
     if (!moment) continue;
     const std::size_t so_far = cracks_so_far(*moment);
-    said.push_back(count(static_cast<double>(so_far)) + " (" + words(stage.moment) + ")");
+    said.push_back(count(static_cast<double>(so_far)) + " (" + std::string(stage.said) + ")");
     discs.push_back(
         {.id = std::string(stage.moment) + "_discs",
          .caption = "All cracks so far as discs in the transparent specimen" + discs_note(scale),

@@ -65,7 +65,7 @@ void add_dissipated(FigureContent& content, const std::vector<SeriesCase>& cases
   if (record.has(quantity::crack_damage_strain))
     mark(strain_at(*history, "axial_strain", record.value(quantity::crack_damage_strain)), "σ_{cd}");
   mark(strain_at(*history, "axial_stress", *std::ranges::max_element(stress)), "peak");
-  chart.x.title = "Strain of the platens (%)";
+  chart.x.title = "Strain of the ends (%)";
   chart.left.title = "Dissipated (kJ/m³)";
   chart.x.low = chart.left.low = 0;
   chart.legend = render::Chart::Legend::top_left;
@@ -73,7 +73,7 @@ void add_dissipated(FigureContent& content, const std::vector<SeriesCase>& cases
   content.panels.push_back(
       {.id = "dissipated",
        .caption = item.label +
-                  ": what was dissipated, by volume. Of a bond that breaks this is the strain energy that it "
+                  ": what was dissipated, per volume. Of a bond that breaks this is the strain energy that it "
                   "held; damping is numerical, against the motion of the particles.",
        .alt = "Dissipated by the end, in kJ/m³: " + listed(ends) + ".",
        .content = std::move(chart)});
@@ -82,7 +82,7 @@ void add_dissipated(FigureContent& content, const std::vector<SeriesCase>& cases
 FigureContent energies(const StudyResult& study, std::string_view test) {
   const auto cases = swept(study, test);
   // Against the strain of the platens, which only grows: that of the gauge springs back where a band fails outside it.
-  FigureContent content = energy_figure(study, test, cases, "platen_strain", "Strain of the platens (%)", 100);
+  FigureContent content = energy_figure(study, test, cases, "platen_strain", "Strain of the ends (%)", 100);
   add_dissipated(content, cases);
   return content;
 }

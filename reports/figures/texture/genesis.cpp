@@ -254,29 +254,26 @@ FigureContent genesis_contacts(const StudyResult& study) {
   const std::string by_group = percent(inter) + " of the contacts are inter-grain contacts.";
   const std::string by_law =
       percent(static_cast<double>(laws.numbers[1]) / all) + " of the contacts are parallel bonds.";
-  content.panels.push_back({.id = "groups",
-                            .caption = "Contacts near the section, by group.",
-                            .alt = by_group,
-                            .content = contacts_picture(study, *record, groups, group_legend, "groups", false),
-                            .per_row = 4});
-  content.panels.push_back({.id = "groups_near",
-                            .caption = "A few grains of the section.",
-                            .alt = by_group,
-                            .content = contacts_picture(study, *record, groups, group_legend, "groups, enlarged", true),
-                            .per_row = 4});
-  content.panels.push_back({.id = "laws",
-                            .caption = "Contacts near the section, by law.",
-                            .alt = by_law,
-                            .content = contacts_picture(study, *record, laws, law_legend, "laws", false),
-                            .per_row = 4});
-  content.panels.push_back({.id = "laws_near",
-                            .caption = "A few grains of the section.",
-                            .alt = by_law,
-                            .content = contacts_picture(study, *record, laws, law_legend, "laws, enlarged", true),
-                            .per_row = 4});
+  // The counts are those of all contacts: the enlarged pictures have the key alone.
+  const auto add = [&](const char* id, const ContactLines& lines, std::vector<LegendEntry> legend, const char* label,
+                       const std::string& by, bool near) {
+    if (near) {
+      for (LegendEntry& one : legend) one.count.clear();
+    }
+    content.panels.push_back({.id = id,
+                              .caption = near ? "A few grains of the section."
+                                              : "Contacts near the section; the numbers are of all contacts.",
+                              .alt = by,
+                              .content = contacts_picture(study, *record, lines, legend, label, near),
+                              .per_row = 3});
+  };
+  add("groups", groups, group_legend, "contact groups", by_group, false);
+  add("laws", laws, law_legend, "contact laws", by_law, false);
+  add("groups_near", groups, group_legend, "contact groups, enlarged", by_group, true);
+  add("laws_near", laws, law_legend, "contact laws, enlarged", by_law, true);
   const bool same = groups.numbers[names.size()] + groups.numbers[names.size() + 1] == laws.numbers[1];
   content.agreement = same ? Agreement::agrees : Agreement::disagrees;
-  content.finding = by_group + " " + by_law;
+  content.finding = by_group + " " + (same ? "As many are parallel bonds." : by_law);
   return content;
 }
 }  // namespace reports::texture

@@ -82,7 +82,8 @@ std::string micro(double metres) { return number(1e6 * metres, 3); }
 double slip_of(const analysis::Jump& jump) { return std::hypot(jump.slip.moved, jump.sideways.moved); }
 
 std::string jump_words(const Across& across) {
-  if (!across.jump) return across.looks.label + ": the band lies at an end, with nothing beyond it to compare";
+  if (!across.jump)
+    return across.looks.label + ": the band reaches an end, so that there is nothing beyond it to compare";
   const double opening = across.jump->opening.moved;
   return fmt::format("{}: across a band at {}° to the axis the sides have {} by {} µm and slipped by {} µm",
                      across.looks.label, number(across.fit.inclination, 2), opening > 0 ? "parted" : "closed up",
@@ -105,9 +106,9 @@ FigureContent displacement_jump(const StudyResult& study) {
     if (auto found = across_of(looks)) all.push_back(std::move(*found));
   }
   if (all.empty()) return content;
-  TextTable table{{"Case", "Band’s angle to the axis (°)", "Cracks in the band beyond its volume (%)", "Strain (%)",
-                   "Opening (µm)", "Of it even strain (µm)", "Slip, upper side up (µm)", "Of that even strain (µm)",
-                   "Slip, level (µm)", "Even strain, level (µm)"},
+  TextTable table{{"Case", "Angle of the band to the axis (°)", "Excess of cracks in the band (%)", "Strain (%)",
+                   "Opening (µm)", "Opening by even strain (µm)", "Slip, upper side up (µm)",
+                   "Slip by even strain (µm)", "Slip sideways (µm)", "Sideways by even strain (µm)"},
                   {}};
   std::vector<std::string> said;
   for (const Across& one : all) {
@@ -133,9 +134,10 @@ FigureContent displacement_jump(const StudyResult& study) {
   }
   content.panels.push_back(
       {.id = "table",
-       .caption = "Displacement of the layer beyond one face of the band, half as thick as it, less that of "
-                  "the layer beyond the other; and what an even strain of the whole specimen would "
-                  "give over the same distance.",
+       .caption =
+           "Displacement of the layer beyond one face of the band, half as thick as the band, less that of the "
+           "layer beyond the other face; beside it what an even strain of the whole specimen would give over the "
+           "same distance. The excess is the share of the cracks in the band less its share of the volume.",
        .alt = "",
        .content = table,
        .per_row = 1});

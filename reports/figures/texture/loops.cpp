@@ -44,10 +44,10 @@ FigureContent unloading_loops_test(const StudyResult& study) {
                                                first.table("loops").rows(), number(strength, 3)),
                             .content = stress});
   render::Chart damage;
-  damage.x.title = "Axial strain where a loop is turned down (%)";
+  damage.x.title = "Axial strain at which unloading begins (%)";
   damage.left.title = "Damage 1 − E/E₁";
-  damage.right.title = "Modulus of unloading (GPa)";
-  TextTable table{{"Seed", "Loop", "Strain (%)", "Stress (MPa)", "Strain left (%)", "E (GPa)", "Damage"}, {}};
+  TextTable table{
+      {"Seed", "Loop", "Strain (%)", "Stress (MPa)", "Strain after unloading (%)", "Modulus E (GPa)", "Damage"}, {}};
   double last = 0;
   std::size_t k = 0;
   for (const dem::Record* record : cases.front().repeats) {
@@ -65,9 +65,8 @@ FigureContent unloading_loops_test(const StudyResult& study) {
     }
     ++k;
   }
-  damage.right.title.clear();
   damage.height = curves_height;
-  damage.legend = render::Chart::Legend::below;
+  damage.legend = damage.series.size() > 1 ? render::Chart::Legend::below : render::Chart::Legend::none;
   if (!damage.series.empty()) {
     content.panels.push_back({.id = "damage",
                               .caption = "Damage by loop: the loss of the secant modulus of unloading.",
@@ -75,9 +74,13 @@ FigureContent unloading_loops_test(const StudyResult& study) {
                               .content = damage});
   }
   content.panels.push_back(
-      {.id = "table", .caption = "Loops and their moduli.", .alt = "", .content = table, .per_row = 1});
+      {.id = "table",
+       .caption = "Loops: strain and stress at which unloading begins, and the secant modulus of unloading.",
+       .alt = "",
+       .content = table,
+       .per_row = 1});
   content.finding =
-      fmt::format("The first unloading has a modulus of {}; at the last of {} loops {} of it is lost.",
+      fmt::format("The first unloading has a modulus of {}; at the last of {} loops {} of that modulus is lost.",
                   by_case(cases, quantity::unloading_modulus, 3), first.table("loops").rows(), percent(last, 0));
   return content;
 }

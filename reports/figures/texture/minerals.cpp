@@ -100,9 +100,10 @@ FigureContent mineral_properties(const StudyResult& study) {
       PropertyBars{.id = "modulus", .title = "Young’s modulus (GPa)", .caption = "Young’s modulus of the minerals."},
       PropertyBars{.id = "tensile_strength", .title = "TS (MPa)", .caption = "Tensile strength of the minerals."},
       PropertyBars{.id = "ucs", .title = "UCS (MPa)", .caption = "Compressive strength of the minerals."},
-      PropertyBars{.id = "m",
-                   .title = "Hoek-Brown m",
-                   .caption = "Hoek-Brown m of the minerals; bars are 95 % intervals where there are."}};
+      PropertyBars{
+          .id = "m",
+          .title = "Hoek-Brown m",
+          .caption = "Hoek-Brown m of the minerals; whiskers: 95 % intervals, where there are pressures enough."}};
   for (const std::string& mineral : minerals_tested(study)) {
     const StudyResult part = of_mineral(study, mineral);
     const auto pressed = series_of(part, test_compression, parameter::confining_pressure);
@@ -145,7 +146,7 @@ FigureContent mineral_properties(const StudyResult& study) {
   }
   if (table.rows.empty()) return content;
   content.panels.push_back({.id = "",
-                            .caption = "Ours / published (Table 3, calibrated values).",
+                            .caption = "Ours / published (the calibrated values of Table 3).",
                             .alt = "",
                             .content = table,
                             .per_row = 1});

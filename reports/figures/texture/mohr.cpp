@@ -141,7 +141,7 @@ render::Chart circles_chart(const std::vector<Peak>& peaks, const analysis::Enve
     chart.marks.push_back({.kind = render::Mark::Kind::point,
                            .x = 0.5 * (peak.sigma_1 + peak.sigma_3),
                            .y = 0.5 * (peak.sigma_1 - peak.sigma_3),
-                           .label = "σ_{3} " + number(peak.sigma_3) + " MPa",
+                           .label = "σ_{3} " + shortest(peak.sigma_3) + " MPa",
                            .colour = dark});
   }
   if (std::isfinite(tension)) add(-tension, 0, "", grey);
@@ -179,7 +179,7 @@ TextTable parameters(const analysis::Envelopes& found, const std::optional<analy
     table.rows.push_back({"Hoek-Brown, s = 1", "σc, the UCS (MPa)", number(fit.sigma_c.value, 4)});
     table.rows.push_back({"", "m", estimate_text(fit.m, 3, true)});
     table.rows.push_back(
-        {"", "tensile strength of the formula, σc/m (MPa)", number(fit.sigma_c.value / fit.m.value, 3)});
+        {"", "tensile strength of the envelope, σc/m (MPa)", number(fit.sigma_c.value / fit.m.value, 3)});
   }
   if (std::isfinite(tension)) table.rows.push_back({"", "direct tension, measured (MPa)", number(tension, 3)});
   if (coulomb) {
@@ -202,21 +202,21 @@ FigureContent confinement_mohr(const StudyResult& study) {
   std::vector<std::string> said, fits;
   for (const Peak& peak : peaks) {
     const auto [p, q] = analysis::invariants(peak.sigma_3, peak.sigma_1);
-    said.push_back(fmt::format("p {} and q {} MPa at σ₃ {} MPa", number(p, 3), number(q, 3), number(peak.sigma_3)));
+    said.push_back(fmt::format("p {} and q {} MPa at σ₃ {} MPa", number(p, 3), number(q, 3), shortest(peak.sigma_3)));
   }
-  if (found.peak_fit) fits.push_back("Hoek-Brown with m " + estimate_text(found.peak_fit->m, 3));
+  if (found.peak_fit) fits.push_back("Hoek-Brown with m " + number(found.peak_fit->m.value, 3));
   if (coulomb)
     fits.push_back(fmt::format("Coulomb with a friction angle of {}° and a cohesion of {} MPa",
-                               estimate_text(coulomb->friction_angle, 3), number(coulomb->cohesion, 3)));
+                               number(coulomb->friction_angle.value, 3), number(coulomb->cohesion, 3)));
   content.panels.push_back({.id = "circles",
                             .caption =
-                                "Peaks, means over seeds, as circles of Mohr on one scale, with the envelopes that "
-                                "touch the circles of the fits. The circle left of zero is direct tension.",
+                                "Peaks, means over seeds, as Mohr circles on one scale, with the envelopes that "
+                                "touch the circles of the fits. The circle to the left of zero is direct tension.",
                             .alt = "Fits: " + listed(fits) + ".",
                             .content = circles_chart(peaks, found, coulomb, tension),
                             .per_row = 1});
   content.panels.push_back({.id = "invariants",
-                            .caption = "The same strengths by mean stress and deviator, a point a test.",
+                            .caption = "The same strengths by mean stress and deviator, one point for each test.",
                             .alt = "Peaks: " + joined(said, "; ") + ".",
                             .content = invariants_chart(found, coulomb, tension, peaks.back().sigma_3),
                             .per_row = 1});
@@ -228,7 +228,7 @@ FigureContent confinement_mohr(const StudyResult& study) {
   content.finding = "Fitted: " + listed(fits) + ". " + joined(said, "; ") + ".";
   if (found.peak_fit && std::isfinite(tension)) {
     content.finding +=
-        fmt::format(" The formula of Hoek and Brown has a tensile strength of {} MPa; direct tension has {} MPa.",
+        fmt::format(" The Hoek-Brown envelope has a tensile strength of {} MPa; direct tension gives {} MPa.",
                     number(found.peak_fit->sigma_c.value / found.peak_fit->m.value, 3), number(tension, 3));
   }
   return content;

@@ -62,15 +62,6 @@ render::Colour from_text(const std::string& text) {
   return {part(1), part(3), part(5)};
 }
 
-std::vector<LegendEntry> crack_legend(const std::array<std::size_t, 4>& numbers) {
-  std::vector<LegendEntry> legend;
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    const CrackClass& one = crack_classes()[k];
-    legend.push_back({one.colour, std::string(one.name), count(static_cast<double>(numbers[k]))});
-  }
-  return legend;
-}
-
 // Half a mean particle diameter to either side: the slab that the cut particles stand for.
 double section_reach(const dem::Record& record) { return 0.5 * mean_diameter(record); }
 
@@ -90,6 +81,15 @@ std::array<std::size_t, 4> numbers_in_section(const dem::Record& record, std::si
 }
 
 }  // namespace
+
+std::vector<LegendEntry> crack_legend(const std::array<std::size_t, 4>& numbers) {
+  std::vector<LegendEntry> legend;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const CrackClass& one = crack_classes()[k];
+    legend.push_back({one.colour, std::string(one.name), count(static_cast<double>(numbers[k]))});
+  }
+  return legend;
+}
 
 std::array<render::Point, 2> frame_of(const Size& size) {
   const double half = 0.5 * size.diameter;

@@ -55,6 +55,8 @@ render::Scene section_scene(const StudyResult& study, const dem::Record& record,
 std::vector<render::Discs> crack_discs(const dem::Record& record, std::size_t count, double scale);
 std::vector<render::Polyline> crack_traces(const dem::Record& record, std::size_t count, double width);
 std::array<std::size_t, 4> crack_numbers(const dem::Record& record, std::size_t count);
+/// The classes of cracks with their numbers.
+std::vector<LegendEntry> crack_legend(const std::array<std::size_t, 4>& numbers);
 
 /// Two pictures of the first `count` cracks: discs in the transparent specimen, traces on the section.
 inline constexpr std::size_t all_cracks = std::numeric_limits<std::size_t>::max();

@@ -111,10 +111,10 @@ FigureContent open_readings(const StudyResult& study) {
       {"E (GPa)", &quantity::young_modulus, false, "young_modulus", 1},
       {"ν", &quantity::poisson_ratio, false, "poisson_ratio", 3},
       {"UCS (MPa)", &quantity::compressive_strength, false, "ucs_ar_1", 1},
-      {"TS (MPa)", &quantity::tensile_strength, true, "tensile_strength_ar_1", 2},
+      {"TS (MPa)", &quantity::tensile_strength, true, "tensile_strength_ar_1", 1},
       {"σcd (MPa)", &quantity::crack_damage, false, "crack_damage", 0},
-      {"at strain (%)", &quantity::crack_damage_strain, false, "crack_damage_strain", 3},
-      {"stress at 0.1 % (MPa)", &quantity::stress_at_strain, false, "stress_at_0_1_percent_ar_1", 1},
+      {"strain there (%)", &quantity::crack_damage_strain, false, "crack_damage_strain", 3},
+      {"stress at 0.1 % strain (MPa)", &quantity::stress_at_strain, false, "stress_at_0_1_percent_ar_1", 1},
       {"inter-grain contacts (%)", &quantity::inter_grain_share, false, "inter_grain_share_ar_1", 1}};
   TextTable table{{"Reading", "Seeds", "Grains"}, {}};
   for (const Compared& one : compared) {
@@ -133,7 +133,7 @@ FigureContent open_readings(const StudyResult& study) {
     return std::isfinite(value) ? shortest(value) : "–";
   };
   add_row(
-      {"published", "", "≥ 3 770"}, [&](const Compared& one) { return published(one.published); },
+      {"published", "", "≥ 3770"}, [&](const Compared& one) { return published(one.published); },
       published("ucs_ts_ratio_ar_1"));
   for (const Reading& reading : found) {
     const auto grains = values(reading.compression, quantity::grains);

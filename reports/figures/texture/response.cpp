@@ -425,7 +425,7 @@ render::Chart contact_chart(const StudyResult& study, const std::vector<SeriesCa
   for (const std::string& name : names) {
     if (!name.starts_with("intra_")) continue;
     const std::string mineral = words(name.substr(6));
-    add_stack(chart, "intra-grain, " + mineral, mineral_colour(study, mineral),
+    add_stack(chart, "in " + mineral, mineral_colour(study, mineral),
               over_cases(cases, quantity::contact_share, name));
   }
   std::vector<PublishedPoint> published;
@@ -434,7 +434,7 @@ render::Chart contact_chart(const StudyResult& study, const std::vector<SeriesCa
       published.push_back(
           {static_cast<double>(i), study.published_value(fmt::format("inter_grain_share_ar_{:g}", cases[i].value))});
   }
-  add_published(chart, published, "inter-grain, published");
+  add_published(chart, published, "published");
   return chart;
 }
 
@@ -593,7 +593,7 @@ FigureContent group_shares(const StudyResult& study) {
   }
   if (!members_of(cases, quantity::contact_share).empty()) {
     content.panels.push_back({.id = "contacts",
-                              .caption = "Intra-grain contacts by mineral, and inter-grain contacts.",
+                              .caption = "Inter-grain contacts, and those inside grains by mineral.",
                               .alt = "Stacked bars of the contact groups; inter-grain " + inter + ".",
                               .content = contact_chart(study, cases)});
     content.panels.push_back(

@@ -78,17 +78,18 @@ FigureContent direct_shear_test(const StudyResult& study) {
        .content = curves_of(cases, {"platen_strain", "axial_stress", 100, 1e-6}, "Shear stress τ (MPa)")});
   content.panels.push_back(
       {.id = "rise",
-       .caption = "Rise of the upper half against its place under the normal stress alone.",
+       .caption = "Rise of the upper half above its place under the normal stress alone.",
        .alt = "Curves of the rise; at the peak " + by_case(cases, quantity::dilation_at_peak, 2) + ".",
        .content = curves_of(cases, {"platen_strain", "opening", 100, 1e6}, "Rise of the upper half (µm)")});
   for (const SeriesCase& item : cases) {
-    content.panels.push_back({.id = "cracks_" + item.id,
-                              .caption = "Cracks near the section at the end of the test, " + item.label + ".",
-                              .alt = "Cracks at the end: " + crack_words(crack_numbers(*item.record, all_cracks)) + ".",
-                              .content = section_cracks(study, *item.record, all_cracks, item.label, picture_width),
-                              .per_row = 3});
+    content.panels.push_back(
+        {.id = "cracks_" + item.id,
+         .caption = "Cracks near the middle section at the end of the test; the halves slide along x.",
+         .alt = "Cracks at the end: " + crack_words(crack_numbers(*item.record, all_cracks)) + ".",
+         .content = section_cracks(study, *item.record, all_cracks, item.label, picture_width),
+         .per_row = 3});
   }
-  content.finding = "The peaks are " + peaks + ".";
+  content.finding = "The shear strength is " + peaks + " at " + joined(labels_of(cases), ", ") + ".";
   return content;
 }
 
@@ -118,7 +119,7 @@ FigureContent direct_shear_envelope(const StudyResult& study) {
     table.rows.push_back(
         {label, estimate_text(found.fit->intercept, 3, true), estimate_text(angle, 3, true), std::to_string(n)});
     said.push_back(
-        fmt::format("{}: c {} MPa, φ {}°", label, number(found.fit->intercept.value, 3), number(angle.value, 3)));
+        fmt::format("{}, c {} MPa and φ {}°", label, number(found.fit->intercept.value, 3), number(angle.value, 3)));
   };
   add(quantity::shear_strength, "peak", 0);
   add(quantity::residual_shear, "residual", 1);
@@ -133,7 +134,7 @@ FigureContent direct_shear_envelope(const StudyResult& study) {
                             .alt = "",
                             .content = table,
                             .per_row = 1});
-  content.finding = "Lines through the strengths: " + joined(said, "; ") + ".";
+  content.finding = "Mohr-Coulomb lines through the strengths: " + joined(said, "; ") + ".";
   return content;
 }
 
