@@ -34,6 +34,8 @@ std::string specimen_words(const StudyResult& study, const CaseResult& result) {
     const double thickness = study.scenario->real("brazilian.thickness");
     return "disc of " + mm(std::stod(height)) + " × " + mm(thickness > 0 ? thickness : std::stod(height) / 2);
   }
+  if (result.test() == test_bending) return "bar of " + mm(std::stod(width)) + " × " + mm(std::stod(height));
+  if (result.test() == test_half_disc) return "half disc of " + mm(std::stod(width));
   if (result.test() == test_shear) return "block of " + mm(std::stod(height));
   return mm(std::stod(width)) + " × " + mm(std::stod(height));
 }
