@@ -390,6 +390,7 @@ inline constexpr Parameter notch{.id = "notch",
                                  .symbol = "a/W",
                                  .in_ids = "notch",
                                  .key = "bending.notch",
+                                 .at_zero = "no notch",
                                  .axis = true,
                                  .words = "the depth of the notch",
                                  .step = "depth of the bar"};

@@ -425,8 +425,7 @@ render::Chart contact_chart(const StudyResult& study, const std::vector<SeriesCa
   for (const std::string& name : names) {
     if (!name.starts_with("intra_")) continue;
     const std::string mineral = words(name.substr(6));
-    add_stack(chart, "in " + mineral, mineral_colour(study, mineral),
-              over_cases(cases, quantity::contact_share, name));
+    add_stack(chart, "in " + mineral, mineral_colour(study, mineral), over_cases(cases, quantity::contact_share, name));
   }
   std::vector<PublishedPoint> published;
   if (swept_axis(study).id == "aspect_ratio") {
