@@ -149,8 +149,8 @@ TEST_CASE("geometry factors of bending") {
   CHECK(half_disc_factor(0.6, 0.6) > half_disc_factor(0.6, 0.4));
 }
 
-// Cut sides have lost the contacts that led out: a fifth of a particle there bears nothing (measured on bars 7 and 12.5 mm
-// deep; docs/notes/closed-forms.md). What is left bends as a beam of that section.
+// Cut sides have lost the contacts that led out: in a bar of eight particles, a fifth of one there bears nothing. A bar
+// twice as deep is within a tenth of the beam of its nominal section (docs/notes/closed-forms.md).
 TEST_CASE("an unbreakable bar bends as a beam of the section that bears, and its notch opens as a crack in one") {
   const Run cylinder(unbreakable(compression()), 40e6);
   const double e = cylinder.record().value_or_nan(quantity::young_modulus) * 1e9;
