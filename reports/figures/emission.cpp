@@ -262,16 +262,26 @@ TextTable table_of(const std::vector<Emission>& all) {
          count(static_cast<double>(most)), number(1e3 * e.energy(), 4), fixed(e.energy() / e.heat, 5),
          number(1e3 * e.window.length, 3), number(1e6 * e.window.time, 3), number(largest, 3),
          e.law ? number(e.law->complete_from, 2) : "–", e.law ? count(static_cast<double>(e.law->events)) : "–",
-         e.law ? fixed(e.law->b, 2) : "too few events", e.law ? fixed(e.law->error, 2) : "–"});
+         e.law ? fixed(e.law->b, 2) : "–", e.law ? fixed(e.law->error, 2) : "–"});
   }
   return table;
 }
 
-std::string law_words(const Emission& e) {
-  return e.law ? fmt::format("{}: b {} ± {} from {} events of M {} or more", e.looks.label, fixed(e.law->b, 2),
-                             fixed(e.law->error, 2), count(static_cast<double>(e.law->events)),
-                             number(e.law->complete_from, 2))
-               : e.looks.label + ": too few events for b";
+// A sentence for all that have a law, and one for those with too few events.
+std::string laws_words(const std::vector<Emission>& all) {
+  std::vector<std::string> laws, without;
+  for (const Emission& e : all) {
+    if (!e.law) {
+      without.push_back(e.looks.label);
+      continue;
+    }
+    laws.push_back(fmt::format("{}: b {} ± {} from {} events of M {} or more", e.looks.label, fixed(e.law->b, 2),
+                               fixed(e.law->error, 2), count(static_cast<double>(e.law->events)),
+                               number(e.law->complete_from, 2)));
+  }
+  if (laws.empty()) return "Too few events for a b-value.";
+  return capital(joined(laws, "; ")) + "." +
+         (without.empty() ? "" : " Too few events for a b-value: " + joined(without, "; ") + ".");
 }
 
 }  // namespace
@@ -316,12 +326,10 @@ void add_emission(FigureContent& content, const std::vector<Emission>& all) {
                             .alt = "Cracks per strain against stress, up to the peak.",
                             .content = rate_chart(all),
                             .per_row = 2});
-  std::vector<std::string> laws;
-  for (const Emission& e : all) laws.push_back(law_words(e));
   content.panels.push_back({.id = "magnitudes",
                             .caption = "Events by magnitude, M = 2/3 (log₁₀ E − 4.8) with all released energy E in J; "
                                        "lines by maximum likelihood from where the catalogue is complete.",
-                            .alt = joined(laws, "; ") + ".",
+                            .alt = laws_words(all),
                             .content = magnitude_chart(all),
                             .per_row = 2});
   if (base.hits.forces) {
@@ -354,7 +362,7 @@ void add_emission(FigureContent& content, const std::vector<Emission>& all) {
                             .alt = "",
                             .content = table_of(all),
                             .per_row = 1});
-  content.finding = joined(laws, "; ") + ".";
+  content.finding = laws_words(all);
   double off = 0;
   for (const Emission& e : all) off = std::max(off, std::abs(e.energy() / e.heat - 1));
   if (std::ranges::all_of(all, [](const Emission& e) { return e.hits.own_energies; })) {

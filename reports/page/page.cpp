@@ -36,8 +36,12 @@ Json about(const StudyResult& study, const Json& entries) {
   for (Json one : entries) {
     if (one.contains("rock") && !study.of_a_paper) continue;
     one.erase("rock");
-    const std::string test = one.value("test", "");
-    if (!test.empty() && std::ranges::none_of(study.cases, [&](const auto& c) { return c.test() == test; })) continue;
+    const Json wanted = one.value("test", Json());  // one test, or several
+    const auto tests = wanted.is_array() ? wanted : wanted.is_null() ? Json::array() : Json::array({wanted});
+    const auto is_run = [&](const Json& test) {
+      return std::ranges::any_of(study.cases, [&](const auto& c) { return c.test() == test.get<std::string>(); });
+    };
+    if (!tests.empty() && std::ranges::none_of(tests, is_run)) continue;
     one.erase("test");
     kept.push_back(std::move(one));
   }

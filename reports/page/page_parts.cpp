@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 #include <span>
@@ -62,9 +63,12 @@ std::string with_unit(const std::string& amount, const std::string& unit) {
 // Those of the first case, and of the first whose specimen has another form.
 std::string specimen_text(const StudyResult& study) {
   std::string text, said;
+  std::size_t least = std::numeric_limits<std::size_t>::max(), most = 0;
   for (const CaseResult& result : study.cases) {
     const dem::Table* particles = result.record ? result.record->find("particles") : nullptr;
     if (!particles) continue;
+    least = std::min(least, particles->rows());
+    most = std::max(most, particles->rows());
     const std::string size = texture::specimen_words(study, result);
     if (!text.empty() && (size == said || size.empty())) continue;
     const std::string shown =
@@ -73,6 +77,9 @@ std::string specimen_text(const StudyResult& study) {
     if (!said.empty()) break;
     said = size;
   }
+  // Blocks without a form of their own differ in their number.
+  if (said.empty() && least < most)
+    return count(static_cast<double>(least)) + " to " + count(static_cast<double>(most)) + " particles";
   return text;
 }
 
@@ -402,7 +409,7 @@ namespace {
 
 // In the middle of a sentence; names of people keep their capital.
 std::string lower(std::string text) {
-  const bool of_a_person = text.find("’s ") != std::string::npos;
+  const bool of_a_person = std::string_view(text).substr(0, text.find(' ')).ends_with("’s");
   if (!of_a_person && text.size() > 1 && text[0] >= 'A' && text[0] <= 'Z' && text[1] >= 'a' && text[1] <= 'z')
     text[0] = static_cast<char>(text[0] - 'A' + 'a');
   return text;

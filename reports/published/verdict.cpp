@@ -88,6 +88,8 @@ std::string tally_text(const Tally& counts, std::string_view scale) {
                ? fmt::format("The one published number is not judged: it belongs to the scale “{}”.", scale)
                : fmt::format("None of the {} published numbers and trends is judged: they belong to the scale “{}”.",
                              all, scale);
+  } else if (all > 1 && counts.not_computed == all) {
+    text = fmt::format("None of the {} published numbers and trends can be computed from the cases of this run.", all);
   } else if (all > 0) {
     std::vector<std::string> parts;
     const auto say = [&](int number, std::string_view what, bool always = false) {
