@@ -89,7 +89,7 @@ TEST_CASE("a key changed: 1, the key is named, the rest of the report is there; 
   CHECK(has(changed.out, "changed: "));
   CHECK(has(changed.err, "since the reference"));
   const std::string page = file(folder / "out" / study / "report.html");
-  CHECK(has(page, "rock.young_modulus: 90 GPa -&gt; 90.9 GPa"));
+  CHECK(has(page, "rock.young_modulus: 90\u00a0GPa -&gt; 90.9\u00a0GPa"));
   CHECK(page.find("since-reference") < page.find("id=\"findings\""));
   const test::Outcome compared = program(folder.path(), {"compare", "references", "out"});
   CHECK(compared.code == 1);
