@@ -98,6 +98,11 @@ analysis::Estimate mean_over(const SeriesCase& item, const dem::Quantity& quanti
   return analysis::mean_of(values);
 }
 
+// In a sentence: with its interval, where several specimens give one.
+std::string said_of(const SeriesCase& item, const analysis::Estimate& mean) {
+  return item.repeats.size() > 1 ? estimate_text(mean, 3) : number(mean.value, 3);
+}
+
 std::string cell(const SeriesCase& item, const dem::Quantity& quantity) {
   const analysis::Estimate mean = mean_over(item, quantity);
   return std::isfinite(mean.value) ? estimate_text(mean, 3, true) : "–";
@@ -130,9 +135,9 @@ FigureContent bending_test(const StudyResult& study) {
                           cell(item, quantity::fracture_toughness), cell(item, quantity::mouth_opening)});
     const analysis::Estimate rupture = mean_over(item, quantity::modulus_of_rupture),
                              toughness = mean_over(item, quantity::fracture_toughness);
-    if (std::isfinite(rupture.value)) said.push_back("the modulus of rupture is " + estimate_text(rupture, 3) + " MPa");
+    if (std::isfinite(rupture.value)) said.push_back("the modulus of rupture is " + said_of(item, rupture) + " MPa");
     if (std::isfinite(toughness.value)) {
-      said.push_back("K_Ic by ASTM E399 is " + estimate_text(toughness, 3) + " MPa√m with a " + item.label);
+      said.push_back("K_Ic by ASTM E399 is " + said_of(item, toughness) + " MPa√m with a " + item.label);
     }
   }
   add_loads(content, cases, area, "W");
@@ -161,8 +166,8 @@ FigureContent half_disc_test(const StudyResult& study) {
   content.panels.push_back(table_panel(std::move(table)));
   const analysis::Estimate toughness = mean_over(cases.front(), quantity::fracture_toughness);
   if (std::isfinite(toughness.value)) {
-    content.finding =
-        fmt::format("K_Ic by the suggested method of Kuruppu et al. 2014 is {} MPa√m.", estimate_text(toughness, 3));
+    content.finding = fmt::format("K_Ic by the suggested method of Kuruppu et al. 2014 is {} MPa√m.",
+                                  said_of(cases.front(), toughness));
     if (diameter < least_diameter) {
       content.finding +=
           fmt::format(" The half disc is {} mm wide; the method asks for {:g} mm, below which K_Ic falls.",
