@@ -8,6 +8,7 @@
 
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
+#include "engine/model/quantities.h"
 #include "reports/page/abbreviations.h"
 #include "reports/page/citations.h"
 #include "reports/page/downloads.h"
@@ -204,6 +205,13 @@ std::string page(const StudyResult& study, const Comparisons& comparisons, const
            css_text(scenario.name() + " · scale " + scenario.scale() + " · dem-report " + options.engine_version));
   data.set("style", dem::read_file(options.assets / "page" / "report.css"));
   data.set("cases", cases_data(study));
+  int beside_case = 4;  // columns of the table of cases that all models fill
+  for (const dem::Quantity& size : {dem::quantity::grains, dem::quantity::steps}) {
+    const bool have = std::ranges::any_of(study.cases, [&](const auto& c) { return c.record && c.record->has(size); });
+    data.set("have_" + std::string(size.id), have);
+    beside_case += have ? 1 : 0;
+  }
+  data.set("beside_case", std::to_string(beside_case));
   data.set("findings", findings_data(study, comparisons, figures));
   data.set("results", results_data(study, false));
   PageData abbreviations{PageData::type::list};
