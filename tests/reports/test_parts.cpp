@@ -46,7 +46,7 @@ TEST_CASE("a page is set in type: indices, no-break spaces, degrees, apostrophes
       {"Section 4.1, Fig. 14c and Eqs. 7 and 8", "Section~4.1, Fig.~14c and Eqs.~7 and 8"},
       {"AR 1 to 3, σ₃ 10 MPa, dip 45°", "AR~1 to 3, σ₃~10~MPa, dip~45°"},
       {"15.8 ± 0.6, p = 0.03, (1.7 ± 0.4) × 10⁻⁵ N/m", "15.8~±~0.6, p~=~0.03, (1.7~±~0.4)~×~10⁻⁵~N/m"},
-      {"6.25 mm × 12.5 mm, ± 5 °, 3 points", "6.25~mm~×~12.5~mm, ±~5°, 3~points"},
+      {"6.25 mm × 12.5 mm, ± 5 °, 3 points", "6.25~mm~×~12.5~mm, ±~5°, 3 points"},
       {"the grains&apos; ratio, the paper's own 'word'", "the grains’ ratio, the paper’s own 'word’"},
       {"of 5 mm", "of 5~mm"},
       {"5 more", "5 more"},
