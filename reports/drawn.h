@@ -9,7 +9,7 @@
 namespace reports {
 
 /// No picture is printed higher, mm: rows that high leave no page a third empty.
-inline constexpr double highest_picture = 74;
+inline constexpr double highest_picture = 64;
 
 /// A bar below a picture that tells its scale.
 struct ScaleBar {

@@ -21,6 +21,21 @@ const LaboratoryNumber* StudyResult::measured(std::string_view key, std::string_
   return found == laboratory.end() ? nullptr : &*found;
 }
 
+namespace {
+
+// Charts beside each other: one height, and frames of one height in it, whatever the legends below them take.
+void match(render::Chart& a, render::Chart& b) {
+  a.height = b.height = std::max(a.height, b.height);
+  const double more = render::plot_height(a) - render::plot_height(b);
+  render::Chart& lower = more > 0 ? b : a;
+  render::Chart& other = more > 0 ? a : b;
+  other.foot = static_cast<int>(std::lround(std::abs(more)));
+  lower.height += other.foot;
+  other.height = lower.height;
+}
+
+}  // namespace
+
 void lay_out(std::vector<Panel>& panels) {
   const auto half = [](const Panel& panel) {
     const bool drawn =
@@ -45,11 +60,11 @@ void lay_out(std::vector<Panel>& panels) {
       continue;
     }
     auto* second = std::get_if<render::Chart>(&panels[i + 1].content);
-    if (first && second) first->height = second->height = std::max(first->height, second->height);
     for (Panel* panel : {&panels[i], &panels[i + 1]}) {
       if (auto* chart = std::get_if<render::Chart>(&panel->content)) chart->width = render::column_width;
       panel->per_row = 2;
     }
+    if (first && second) match(*first, *second);
     i += 2;
   }
 }

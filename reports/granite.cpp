@@ -37,7 +37,7 @@ std::string specimen_words(const StudyResult& study, const CaseResult& result) {
   if (result.test() == test_bending) return "bar of " + mm(std::stod(width)) + " × " + mm(std::stod(height));
   if (result.test() == test_half_disc) return "half disc of " + mm(std::stod(width));
   if (result.test() == test_shear) return "block of " + mm(std::stod(height));
-  return mm(std::stod(width)) + " × " + mm(std::stod(height));
+  return "cylinder of " + mm(std::stod(width)) + " × " + mm(std::stod(height));
 }
 
 }  // namespace reports::texture

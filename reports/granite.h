@@ -26,7 +26,7 @@ StudyResult of_mineral(const StudyResult& study, std::string_view mineral);
 /// Of the compression tests of one mineral, or of the rock (""), that agree in all but confining pressure and seed.
 analysis::Envelopes envelopes_of(const StudyResult& study, std::string_view mineral = "");
 
-/// What the specimen of a case is: "6.25 mm × 12.5 mm" (diameter and height), "disc of 50 mm × 25 mm", "block of 25 mm",
+/// What the specimen of a case is: "cylinder of 6.25 mm × 12.5 mm" (diameter and height), "disc of 50 mm × 25 mm", "block of 25 mm",
 /// "bar of 40 mm × 10 mm", "half disc of 50 mm"; ""
 /// where its record does not say.
 std::string specimen_words(const StudyResult& study, const CaseResult& result);

@@ -65,7 +65,10 @@ std::string fixed(double value, int places) {
 
 std::string percent(double fraction, int places) { return fixed(100 * fraction, places) + " %"; }
 
-std::string with_sign(std::string text) { return text.starts_with(minus_sign) ? text : "+" + text; }
+std::string with_sign(std::string text) {
+  const bool nothing = text.substr(0, text.find(' ')).find_first_not_of("0.") == std::string::npos;
+  return nothing || text.starts_with(minus_sign) ? text : "+" + text;
+}
 
 std::string shortest(double value) { return dressed(fmt::format("{:.9g}", value)); }
 

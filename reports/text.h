@@ -23,7 +23,7 @@ bool needs_powers(double value);
 std::string fixed(double value, int places);
 /// A fraction as percent: percent(0.123, 1) is "12.3 %".
 std::string percent(double fraction, int places = 1);
-/// With a sign in front, also for positive values.
+/// With a sign in front, also for positive values; zero has none.
 std::string with_sign(std::string text);
 /// As short as it can be without loss: "206.8", "55".
 std::string shortest(double value);

@@ -99,6 +99,10 @@ struct Chart {
     below
   } legend = Legend::top_left;
   int width = 400, height = 300;  ///< px; see column_width
+  int foot = 0;                   ///< px of it that are left empty at the lower end
 };
+
+/// Height (px) of the frame of its data: legends and titles leave one chart more than another.
+double plot_height(const Chart& chart);
 
 }  // namespace render

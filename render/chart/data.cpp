@@ -153,15 +153,32 @@ void draw_bars(Paper& paper, const ChartLayout& layout) {
     paper.line({{layout.plot.left, zero}, {layout.plot.right, zero}}, {ink, 0.9, Line::solid});
 }
 
+std::string printed(const Bars& bars, double value) {
+  std::string text = fmt::format(fmt::runtime(bars.value_format), value);
+  if (!text.empty() && text.front() == '-') text.replace(0, 1, "\u2212");
+  return text;
+}
+
 }  // namespace
 
 ValueText value_text(const ChartLayout& layout, const Bar& bar) {
   ValueText value;
-  value.text = fmt::format(fmt::runtime(layout.chart->bars->value_format), bar.value);
-  if (!value.text.empty() && value.text.front() == '-') value.text.replace(0, 1, "\u2212");
+  value.text = printed(*layout.chart->bars, bar.value);
   value.size = layout.text;
   value.width = text_width(value.text, value.size);
-  value.upward = value.width > 1.25 * bar.rect.width();
+  // Values of neighbours do not touch: with one that is wider than its bar, all stand upright.
+  const Bars& bars = *layout.chart->bars;
+  const bool alone = bars.stacked || bars.values.size() == 1;
+  const auto widest = [&] {
+    double width = value.width;
+    for (const auto& series : bars.values) {
+      for (const double one : series) {
+        if (std::isfinite(one)) width = std::max(width, text_width(printed(bars, one), value.size));
+      }
+    }
+    return width + 3;
+  };
+  value.upward = alone ? value.width > 1.25 * bar.rect.width() : widest() > bar.rect.width();
   return value;
 }
 

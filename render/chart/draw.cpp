@@ -85,6 +85,10 @@ ChartLayout with_free_legend(const Paper& paper, const Chart& chart, const Rect&
   return lay_out(chart, area, text, below);
 }
 
+Rect area_of(const Chart& chart) {
+  return {0, 0, static_cast<double>(chart.width), static_cast<double>(chart.height - chart.foot)};
+}
+
 }  // namespace
 
 void draw_chart(Paper& paper, const Chart& chart, const Rect& area, double text) {
@@ -107,8 +111,14 @@ Paper paper_of(const Chart& chart) {
   check(chart);
   Paper paper(chart.width, chart.height);
   paper.rectangle({0, 0, static_cast<double>(chart.width), static_cast<double>(chart.height)}, {1, 1, 1});
-  draw_chart(paper, chart, {0, 0, static_cast<double>(chart.width), static_cast<double>(chart.height)});
+  draw_chart(paper, chart, area_of(chart));
   return paper;
+}
+
+double plot_height(const Chart& chart) {
+  check(chart);
+  const Paper paper(chart.width, chart.height);
+  return with_free_legend(paper, chart, area_of(chart), 12).plot.height();
 }
 
 }  // namespace render

@@ -72,7 +72,6 @@ render::Chart activity_chart(const Emission& e) {
       so_far("cracks", 0, e.hits.all.begin(), e.hits.all.end(), [](const analysis::Hit& h) { return h.time; }),
       so_far("events", 1, e.events.begin(), e.events.end(), [](const analysis::Event& v) { return v.time; })};
   chart.legend = render::Chart::Legend::below;
-  chart.height = 340;
   return chart;
 }
 
@@ -118,7 +117,6 @@ render::Chart rate_chart(const std::vector<Emission>& all) {
   chart.left.low = std::pow(10, std::floor(std::log10(low)));
   chart.left.high = std::pow(10, std::max(2.0, std::ceil(std::log10(high))));
   chart.legend = render::Chart::Legend::below;
-  chart.height = 340;
   return chart;
 }
 
@@ -168,7 +166,6 @@ render::Chart magnitude_chart(const std::vector<Emission>& all) {
   chart.left.low = 0.7;
   chart.left.high = std::pow(10, std::ceil(std::log10(most)));
   chart.legend = render::Chart::Legend::below;
-  chart.height = 340;
   return chart;
 }
 
@@ -210,7 +207,6 @@ render::Chart source_chart(const Emission& e) {
   chart.left.high = 110;
   chart.bars = bars;
   chart.legend = render::Chart::Legend::below;
-  chart.height = 340;
   return chart;
 }
 
@@ -248,7 +244,7 @@ Picture map_of(const Emission& e, double largest) {
 TextTable table_of(const std::vector<Emission>& all) {
   TextTable table{{"Case", "Cracks", "Events", "Cracks of the largest event", "Energy of all events (mJ)",
                    "Over the heat of breaking", "Window (mm)", "Window (µs)", "Largest magnitude", "Complete from M",
-                   "Events above", "b", "Standard error of b"},
+                   "Events above", "b"},
                   {}};
   for (const Emission& e : all) {
     std::size_t most = 0;
@@ -262,7 +258,7 @@ TextTable table_of(const std::vector<Emission>& all) {
          count(static_cast<double>(most)), number(1e3 * e.energy(), 4), fixed(e.energy() / e.heat, 5),
          number(1e3 * e.window.length, 3), number(1e6 * e.window.time, 3), number(largest, 3),
          e.law ? number(e.law->complete_from, 2) : "–", e.law ? count(static_cast<double>(e.law->events)) : "–",
-         e.law ? fixed(e.law->b, 2) : "–", e.law ? fixed(e.law->error, 2) : "–"});
+         e.law ? fixed(e.law->b, 2) + " ± " + fixed(e.law->error, 2) : "–"});
   }
   return table;
 }
@@ -358,7 +354,7 @@ void add_emission(FigureContent& content, const std::vector<Emission>& all) {
          .per_row = per_row});
   content.panels.push_back({.id = "table",
                             .caption = "Events, their energy beside the heat of breaking in the ledger, and the law of "
-                                       "their magnitudes.",
+                                       "their magnitudes: b ± its standard error, where events are enough.",
                             .alt = "",
                             .content = table_of(all),
                             .per_row = 1});
@@ -372,7 +368,7 @@ void add_emission(FigureContent& content, const std::vector<Emission>& all) {
   } else {
     content.finding +=
         " These records were made before cracks kept what they released: the heat between two samples is shared by the "
-        "area of their cracks, and there are no source types. --force makes them again.";
+        "area of their cracks, and there are no source types. A run with --force keeps them.";
   }
 }
 

@@ -12,8 +12,6 @@
 namespace reports {
 namespace {
 
-constexpr int panel_height = 310;
-
 double largest(std::span<const double> values) {
   double most = 0;
   for (const double v : values) {
@@ -50,14 +48,32 @@ render::Colour share_colour(std::size_t index) {
   return colours[index % colours.size()];
 }
 
-/// Ends of the axes that all panels of a figure share.
+/// Ends of the axes that panels share.
 struct Reach {
   double x = 0, energy = 0;  ///< x in its unit; J
 };
 
+// Cases whose energies are of one size share their axes, in the order of the figure: on those of the largest, small ones
+// could not be read. The reach of each case.
+std::vector<Reach> shared_reaches(const std::vector<Reach>& own) {
+  constexpr double alike = 3;
+  std::vector<Reach> shared(own.size());
+  for (std::size_t begin = 0, end = 0; begin < own.size(); begin = end) {
+    Reach reach;
+    double least = own[begin].energy;
+    for (; end < own.size(); ++end) {
+      least = std::min(least, own[end].energy);
+      if (std::max(reach.energy, own[end].energy) > alike * least) break;
+      reach = {std::max(reach.x, own[end].x), std::max(reach.energy, own[end].energy)};
+    }
+    std::fill(shared.begin() + static_cast<std::ptrdiff_t>(begin), shared.begin() + static_cast<std::ptrdiff_t>(end),
+              reach);
+  }
+  return shared;
+}
+
 render::Chart ledger_chart(const dem::Table& history, const std::string& x_column, const std::string& x_title,
-                           double x_factor, const Reach& reach) {
-  const auto unit = energy_unit(reach.energy);
+                           double x_factor, const Reach& reach, const std::pair<double, std::string>& unit) {
   const auto terms = analysis::ledger_terms(history);
   const auto x = scaled(history.real(x_column), x_factor);
   const auto work = work_of(history, terms);
@@ -87,7 +103,6 @@ render::Chart ledger_chart(const dem::Table& history, const std::string& x_colum
   chart.x.high = reach.x;
   chart.left.high = 1.06 * unit.first * reach.energy;
   chart.legend = render::Chart::Legend::top_left;
-  chart.height = panel_height;
   return chart;
 }
 
@@ -135,7 +150,7 @@ FigureContent energy_figure(const StudyResult& study, std::string_view test, con
                             const std::string& x_column, const std::string& x_title, double x_factor) {
   FigureContent content;
   if (auto missing = missing_cases(study, test)) content.panels.push_back(*missing);
-  Reach reach;
+  std::vector<Reach> own;
   std::vector<const SeriesCase*> kept;
   for (const SeriesCase& item : cases) {
     const dem::Table* history = item.record->find("history");
@@ -144,17 +159,24 @@ FigureContent energy_figure(const StudyResult& study, std::string_view test, con
       continue;
     }
     kept.push_back(&item);
-    reach.energy = std::max(reach.energy, largest(work_of(*history, analysis::ledger_terms(*history))));
-    reach.x = std::max(reach.x, x_factor * largest(history->real(x_column)));
+    own.push_back(
+        {x_factor * largest(history->real(x_column)), largest(work_of(*history, analysis::ledger_terms(*history)))});
   }
+  const std::vector<Reach> reaches = shared_reaches(own);
+  const auto unit = energy_unit(own.empty() ? 0 : std::ranges::max_element(own, {}, &Reach::energy)->energy);
   render::Chart residuals;
   double limit = std::nan("");
   double worst = 0;
-  for (const SeriesCase* item : kept) {
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    const SeriesCase* item = kept[k];
     const dem::Table& history = item->record->table("history");
-    render::Chart chart = ledger_chart(history, x_column, x_title, x_factor, reach);
+    render::Chart chart = ledger_chart(history, x_column, x_title, x_factor, reaches[k], unit);
+    const double first = reaches.front().energy, times = first > 0 ? reaches[k].energy / first : 1;
     content.panels.push_back({.id = item->id,
-                              .caption = item->label + ".",
+                              .caption = capital(item->label) + "." +
+                                         (times == 1 ? ""
+                                                     : fmt::format(" The energy axis is {} times that at {}.",
+                                                                   number(times, 2), kept.front()->label)),
                               .alt = item->label + ", " + shares_alt(history),
                               .content = std::move(chart)});
     render::Series series = relative_residual(history, x_column, x_factor);
@@ -179,7 +201,6 @@ FigureContent energy_figure(const StudyResult& study, std::string_view test, con
       residuals.left.low = std::min(1e-6 * limit, 0.1 * worst);
     }
     residuals.legend = render::Chart::Legend::bottom_right;
-    residuals.height = panel_height;
     content.panels.push_back(
         {.id = "residual",
          .caption = "Residual of the ledger against its limit; work is taken as at least 1 % of its largest value.",

@@ -153,7 +153,6 @@ render::Chart fragments_by_number(const std::vector<Broken>& cases) {
   chart.left.high = 1.6 * most;
   chart.x.low = 0.8;
   chart.legend = render::Chart::Legend::below;
-  chart.height = 340;
   return chart;
 }
 
@@ -179,7 +178,6 @@ render::Chart fragments_by_volume(const std::vector<Broken>& cases) {
     chart.series.push_back(series);
   }
   chart.legend = render::Chart::Legend::below;
-  chart.height = 340;
   return chart;
 }
 

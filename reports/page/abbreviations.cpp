@@ -15,6 +15,8 @@ constexpr std::array known{
     Abbreviation{"σ_cd", "crack damage stress"},
     Abbreviation{"σ₃", "confining pressure"},
     Abbreviation{"σₙ", "normal stress"},
+    Abbreviation{"K_Ic", "fracture toughness in opening mode"},
+    Abbreviation{"a/W", "depth of the notch over that of the bar"},
     Abbreviation{"IQR", "interquartile range"},
 };
 

@@ -24,16 +24,17 @@ PageData legend_data(const std::vector<LegendEntry>& entries) {
   for (const LegendEntry& entry : entries) {
     PageData item;
     item.set("colour", colour_code(entry.colour));
-    item.set("text",
-             entry.text.empty() || entry.count.empty() ? entry.text + entry.count : entry.text + ": " + entry.count);
+    item.set("text", entry.text.empty() || entry.count.empty() ? entry.text + entry.count
+                                                               : entry.text + ":\u00a0" + entry.count);
     legend.push_back(item);
   }
   return legend;
 }
 
-/// What the pictures of a row have in common is said once, below the row.
+/// What the pictures of a row have in common: it is said once, below the row; and whether all are slim.
 struct Shared {
   bool caption = false, legend = false;
+  bool slim = false;
 };
 
 bool same_key(const std::vector<LegendEntry>& a, const std::vector<LegendEntry>& b) {
@@ -42,26 +43,34 @@ bool same_key(const std::vector<LegendEntry>& a, const std::vector<LegendEntry>&
   });
 }
 
+/// In mm. Charts are drawn for their width in print, so that their text has its size there; a scene is as wide as its place,
+/// up to that height.
+double print_width(const DrawnPanel& panel) {
+  if (!panel.image.ends_with(".png")) return panel.width * render::column_mm / render::column_width;
+  return panel.height > 0 ? highest_picture * panel.width / panel.height : 0;
+}
+
+bool is_tall(const DrawnPanel& panel) { return panel.height > panel.width * 3 / 2; }
+
 Shared shared_by(std::span<const DrawnPanel> row) {
-  if (row.size() < 2) return {};
+  Shared shared;
+  // Beside a slim picture there is room for its caption and its key in print.
+  constexpr double slim = 36;  // mm
+  shared.slim = std::ranges::all_of(row, [](const auto& p) { return is_tall(p) && print_width(p) <= slim; });
+  if (row.size() < 2) return shared;
   const DrawnPanel& first = row.front();
-  return {!first.caption.empty() &&
-              std::ranges::all_of(row, [&](const auto& p) { return p.caption == first.caption && !p.label.empty(); }),
-          !first.legend.empty() &&
-              std::ranges::all_of(row, [&](const auto& p) { return same_key(p.legend, first.legend); })};
+  shared.caption = !first.caption.empty() && std::ranges::all_of(row, [&](const auto& p) {
+    return p.caption == first.caption && !p.label.empty();
+  });
+  shared.legend = !first.legend.empty() &&
+                  std::ranges::all_of(row, [&](const auto& p) { return same_key(p.legend, first.legend); });
+  return shared;
 }
 
 // What differs from picture to picture, once the row says the rest: the entries with counts, by their names.
 std::vector<LegendEntry> counts_of(std::vector<LegendEntry> legend) {
   std::erase_if(legend, [](const LegendEntry& entry) { return entry.count.empty(); });
   return legend;
-}
-
-/// In mm. Charts are drawn for their width in print, so that their text has its size there; a scene is as wide as its place,
-/// up to that height.
-double print_width(const DrawnPanel& panel) {
-  if (!panel.image.ends_with(".png")) return panel.width * render::column_mm / render::column_width;
-  return panel.height > 0 ? highest_picture * panel.width / panel.height : 0;
 }
 
 /// A download of a panel. A picture that is on the page already is not there twice.
@@ -85,7 +94,7 @@ std::vector<Download> downloads_of(const DrawnPanel& panel, const std::filesyste
   return all;
 }
 
-// "12.5", "−3", "≥ 3770", "0.61 (0.4 to 0.8)", "−8 to 10", "134 / 0"; not "AR 1" or "0.1 % strain".
+// "12.5", "−3", "≥ 3770", "0.7 ± 0.1", "0.61 (0.4 to 0.8)", "−8 to 10", "134 / 0"; not "AR 1" or "0.1 % strain".
 bool is_number(std::string_view text) {
   for (const std::string_view before : {"≥ ", "≤ ", "< ", "−", "+"}) {
     if (text.starts_with(before)) text.remove_prefix(before.size());
@@ -105,13 +114,13 @@ std::vector<bool> number_columns(const TextTable& table) {
       if (column >= row.size() || row[column].empty() || row[column] == "–") continue;
       (is_number(row[column]) ? some : others) += 1;
     }
-    numbers[column] = some > others;
+    numbers[column] = some > others || others == 0;  // where none has a number, too
   }
   return numbers;
 }
 
 void set_table(PageData& data, const TextTable& table) {
-  constexpr std::size_t brief = 20;  // bytes of a name that stays in one line
+  constexpr std::size_t brief = 26;  // bytes of a name that stays in one line
   const std::vector<bool> numbers = number_columns(table);
   PageData head = new_list();
   for (std::size_t i = 0; i < table.head.size(); ++i) {
@@ -136,6 +145,8 @@ void set_table(PageData& data, const TextTable& table) {
     one.set("cells", values);
     rows.push_back(one);
   }
+  constexpr std::size_t few = 6;
+  data.set("short", table.rows.size() <= few);
   data.set("table_head", head);
   data.set("table_rows", rows);
 }
@@ -155,12 +166,13 @@ PageData panel_data(const DrawnPanel& panel, const std::string& figure, const st
   data.set("note", panel.note);
   data.set("has_note", !panel.note.empty());
   data.set("has_image", !panel.image.empty());
-  // Beside a slim picture there is room for its caption and its key in print.
-  constexpr double slim = 36, apart = 2;  // mm
-  const bool tall = panel.height > panel.width * 3 / 2;
-  data.set("slim", tall && print_width(panel) <= slim);
+  constexpr double apart = 2;  // mm
+  data.set("slim", shared.slim);
   data.set("beside", fmt::format("{:.1f}", print_width(panel) + apart));
-  data.set("shape", !tall ? "wide-shape" : print_width(panel) <= slim ? "tall slim" : "tall");
+  const bool broad = !panel.image.empty() && !panel.image.ends_with(".png") &&
+                     (panel.whole_width || panel.width > render::column_width);
+  data.set("broad", broad);
+  data.set("shape", broad ? "wide-shape broad" : !is_tall(panel) ? "wide-shape" : shared.slim ? "tall slim" : "tall");
   if (!panel.image.empty()) {
     data.set("image", folder.empty() ? panel.image : data_uri(folder / panel.image));
     data.set("has_print_width", panel.width > 0 && panel.height > 0);

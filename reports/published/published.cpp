@@ -45,7 +45,7 @@ void compare_value(const Terms& terms, const Json& term, Comparison& row) {
     for (double* part : {&ours.value, &ours.low, &ours.high}) *part *= times;
     const bool share = term.at("fit").get<std::string>().ends_with(".r_squared");
     if (ours.has_interval()) {
-      row.detail = interval_text(ours) + ", of the misfit of the points, not of other specimens";
+      row.detail = interval_text(ours) + " of the fit";
     } else if (!share) {
       row.detail = "as many points as unknowns: no interval";
     }

@@ -104,7 +104,7 @@ void check_axis(const render::Scale& scale, const std::string& title) {
 }
 
 void check_axes(const Chart& chart) {
-  const render::Rect area{0, 0, static_cast<double>(chart.width), static_cast<double>(chart.height)};
+  const render::Rect area{0, 0, static_cast<double>(chart.width), static_cast<double>(chart.height - chart.foot)};
   const render::ChartLayout layout = render::lay_out(chart, area, 12, chart.legend);
   if (!chart.bars) check_axis(layout.x, chart.x.title);
   check_axis(layout.left, chart.left.title);
@@ -141,7 +141,7 @@ void check_type(const Chart& chart, double least) {
 
 // The word in an area lies in it: beside it, in the ink for its colour, it would not be seen.
 void check_words_in_bands(const Chart& chart) {
-  const render::Rect area{0, 0, static_cast<double>(chart.width), static_cast<double>(chart.height)};
+  const render::Rect area{0, 0, static_cast<double>(chart.width), static_cast<double>(chart.height - chart.foot)};
   const render::ChartLayout layout = render::lay_out(chart, area, 12, chart.legend);
   for (std::size_t b = 0; b < chart.bands.size(); ++b) {
     if (!layout.inside[b]) continue;

@@ -322,3 +322,20 @@ TEST_CASE("a series that fills a row begins one after another such series") {
   CHECK(rows({{"whole", 2}, {"cut", 2}}, 4) == "abcd ");
   CHECK(rows({{"whole", 5}, {"cut", 5}}, 5) == "abcde fghij ");
 }
+
+TEST_CASE("charts beside each other have one height, and so have their frames") {
+  const auto panel = [](int labels) {
+    render::Chart chart;
+    for (int k = 0; k < labels; ++k)
+      chart.series.push_back({.label = "a series with a long name " + std::to_string(k), .x = {0, 1}, .y = {0, 1}});
+    chart.legend = render::Chart::Legend::below;
+    return reports::Panel{.id = "p", .caption = "", .alt = "", .content = chart, .per_row = 2};
+  };
+  std::vector<reports::Panel> panels{panel(1), panel(7)};
+  reports::lay_out(panels);
+  const auto &few = std::get<render::Chart>(panels[0].content), &many = std::get<render::Chart>(panels[1].content);
+  CHECK(few.height == many.height);
+  CHECK(few.foot > 0);
+  CHECK(many.foot == 0);
+  CHECK(render::plot_height(few) == doctest::Approx(render::plot_height(many)).epsilon(0.01));
+}

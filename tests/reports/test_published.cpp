@@ -351,6 +351,7 @@ TEST_CASE("what stands before ours follows from the numbers that the statement s
     one.kind = "value";
     one.scale = scale;
     one.outcome = outcome;
+    one.verdict = one.scale == "paper" && outcome != Verdict::not_computed ? Verdict::not_judged : outcome;
     if (outcome != Verdict::not_computed) one.computed = 1.0;
     one.deviation = 0.0;
     return one;
@@ -370,7 +371,12 @@ TEST_CASE("what stands before ours follows from the numbers that the statement s
         "Disagrees (1 of 3 missed, 1 undecided).");
   CHECK(standing({row("a", Verdict::undecided), row("b", Verdict::undecided)}) == "Undecided (both undecided).");
   CHECK(standing({row("a", Verdict::met), row("b", Verdict::not_computed)}) == "Undecided (1 of 2 not computed).");
-  CHECK(standing({row("a", Verdict::met, "paper")}) == "Agrees at draft scale.");
+  CHECK(standing({row("a", Verdict::met, "paper")}) == "Not judged at draft scale.");
+  CHECK(standing({row("a", Verdict::missed, "paper"), row("b", Verdict::not_computed, "paper")}) ==
+        "Not judged at draft scale (1 of 2 not computed).");
+  CHECK(standing({row("a", Verdict::missed, "paper"), row("b", Verdict::met)}) == "Agrees (1 of 2 not judged).");
+  CHECK(standing({row("a", Verdict::missed, "paper")}, Agreement::agrees) == "Not judged at draft scale.");
+  CHECK(standing({row("a", Verdict::not_computed, "paper")}) == "Not computed at draft scale.");
   CHECK(standing({row("a", Verdict::met, "any")}) == "Agrees.");
   CHECK(standing({}, Agreement::disagrees) == "Disagrees.");
   CHECK(standing({}) == "");

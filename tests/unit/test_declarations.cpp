@@ -12,6 +12,7 @@
 #include "engine/model/model.h"
 #include "engine/study/study.h"
 #include "reports/figure.h"
+#include "reports/page/page_cases.h"
 #include "reports/published/papers.h"
 #include "reports/published/terms.h"
 #include "tests/support/scratch.h"
@@ -123,6 +124,15 @@ TEST_CASE("every result and parameter has its words, and ids are unlike") {
         CHECK((std::ranges::any_of(model.keys(), has_key) || std::ranges::any_of(dem::common_keys(), has_key)));
       }
     }
+  }
+}
+
+TEST_CASE("findings begin with results that a model declares") {
+  for (const std::string_view id : reports::telling_results()) {
+    CAPTURE(id);
+    CHECK(std::ranges::any_of(dem::models(), [&](const dem::Model& model) {
+      return std::ranges::any_of(model.quantities(), [&](const dem::Quantity& one) { return one.covers(id); });
+    }));
   }
 }
 

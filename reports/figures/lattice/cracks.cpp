@@ -273,7 +273,6 @@ FigureContent crack_front(const StudyResult& study) {
       chart.series.push_back(line);
     }
     chart.legend = render::Chart::Legend::bottom_right;
-    chart.height = 300;
     content.panels.push_back(
         {.id = planes,
          .caption = fmt::format(

@@ -35,7 +35,6 @@ render::Chart against_strain(const std::vector<const dem::Record*>& records, con
   chart.marks.push_back(
       {.kind = render::Mark::Kind::horizontal, .x = 0, .y = published, .label = "quartzite", .colour = {0, 0, 0}});
   chart.legend = render::Chart::Legend::outside_right;
-  chart.height = 340;
   return chart;
 }
 

@@ -104,7 +104,6 @@ render::Chart heats(const dem::Record& r, double from, double to, double zero,
     chart.x.high = 1.05 * std::max(last, published_end);
   }
   chart.legend = render::Chart::Legend::below;
-  chart.height = 360;
   return chart;
 }
 
@@ -158,7 +157,6 @@ FigureContent stress_strain(const StudyResult& study) {
   inset.legend = render::Chart::Legend::none;
   chart.insets.push_back({{inset}, {0.60, 0.13, 0.36, 0.28}});
   chart.legend = render::Chart::Legend::none;
-  chart.height = 380;
   content.panels.push_back(
       {.id = "",
        .caption =
@@ -211,7 +209,7 @@ FigureContent energy_compression(const StudyResult& study) {
   inset.legend = render::Chart::Legend::none;
   chart.insets.push_back({{inset}, {0.14, 0.40, 0.40, 0.40}});
   chart.legend = render::Chart::Legend::below;
-  chart.height = 400;
+  chart.height = 320;
   content.panels.push_back(
       {.id = "",
        .caption = "Compression: energy against time; the inset shows the kinetic energy at failure.",
@@ -267,7 +265,7 @@ FigureContent energy_tension(const StudyResult& study) {
     inset.legend = render::Chart::Legend::none;
     chart.insets.push_back({{inset}, {0.10, 0.44, 0.40, 0.44}});
     chart.legend = render::Chart::Legend::below;
-    chart.height = 400;
+    chart.height = 320;
     const std::string planes = planes_of(*r);
     content.panels.push_back(
         {.id = planes,
@@ -395,7 +393,6 @@ FigureContent ledger(const StudyResult& study) {
   chart.left.low = 1e-12;
   chart.left.high = 1e-2;
   chart.legend = render::Chart::Legend::below;
-  chart.height = 340;
   content.panels.push_back(
       {.id = "",
        .caption = "Residual of the ledger over the work, taken as at least a thousandth of its largest value.",

@@ -92,7 +92,6 @@ render::Chart against_size(const StudyResult& study, const Test& test) {
                            .line = render::Line::dash_dot});
   }
   chart.legend = render::Chart::Legend::below;
-  chart.height = 340;
   return chart;
 }
 

@@ -226,7 +226,6 @@ FigureContent radial_fractures(const StudyResult& study) {
   chart.marks.push_back(
       {.kind = render::Mark::Kind::horizontal, .x = 0, .y = 100.0 / 9, .label = "chance", .colour = {0.3, 0.3, 0.3}});
   chart.legend = render::Chart::Legend::none;
-  chart.height = 320;
   const double share = r->value_or_nan(quantity::radial_share);
   content.panels.push_back(
       {.id = "",
@@ -265,7 +264,6 @@ FigureContent spacing(const StudyResult& study) {
     series.marker = render::Marker::circle;
     chart.series = {series};
     chart.legend = render::Chart::Legend::none;
-    chart.height = 300;
     content.panels.push_back({.id = id,
                               .caption = caption,
                               .alt = fmt::format("At the end {} fractures cross the layer.", count(last)),
@@ -295,7 +293,7 @@ FigureContent spacing(const StudyResult& study) {
                         : spacing.back() <= about         ? Agreement::agrees
                                                           : Agreement::undecided;
     if (content.agreement == Agreement::undecided)
-      content.finding += " It falls, but has not come down to the thickness.";
+      content.finding += " The spacing falls, but has not come down to the thickness.";
   }
   return content;
 }

@@ -103,16 +103,16 @@ FigureContent neighbours(const StudyResult& study) {
   const dem::Record* r = main_record(study);
   if (!r) return content;
   const Layout l = layout_of(*r);
-  const int c = l.columns / 2 - 2, row = l.rows / 2 / 2 * 2 - 2;
-  const std::size_t middle = static_cast<std::size_t>((row + 2) * l.columns + c + 2);
-  Drawing d = draw_window(*r, {c, c + 5, row, row + 5}, render::column_width, false, [&](std::size_t i) {
+  const int c = l.columns / 2 - 3, row = l.rows / 2 / 2 * 2;
+  const std::size_t middle = static_cast<std::size_t>((row + 1) * l.columns + c + 3);
+  Drawing d = draw_window(*r, {c, c + 7, row, row + 3}, render::column_width, false, [&](std::size_t i) {
     const auto p = particles_of(*r).place;
     const double distance = std::hypot(p[2 * i] - p[2 * middle], p[2 * i + 1] - p[2 * middle + 1]);
     return std::string(i == middle ? "#e69f00" : distance < 2.2 * l.radius ? "#f3d9a4" : std::string(particle_fill));
   });
   content.panels.push_back({.id = "",
                             .caption = "Part of the model: a particle, its six neighbours, and the springs.",
-                            .alt = "A patch of 25 discs in rows; one is joined to six neighbours by springs.",
+                            .alt = "A patch of 21 discs in rows; one is joined to six neighbours by springs.",
                             .content = d.finish_with_key({{"#e69f00", "a particle", false},
                                                           {"#f3d9a4", "its six neighbours", false},
                                                           {std::string(spring_colour), "springs", true}}),
@@ -133,7 +133,7 @@ FigureContent box(const StudyResult& study) {
   if (!r) return content;
   const Layout l = layout_of(*r);
   const Particles p = particles_of(*r);
-  const int n = std::min(12, l.columns), m = std::min(12, l.rows);
+  const int n = std::min(12, l.columns), m = std::min(10, l.rows);
   Drawing corner = draw_window(*r, {0, n, 0, m}, render::column_width, false,
                                [&](std::size_t i) { return std::string(p.fixed[i] ? wall_fill : particle_fill); });
   content.panels.push_back({.id = "corner",
@@ -202,28 +202,25 @@ FigureContent flow(const StudyResult& study) {
     body += fmt::format("<polygon points=\"{},{} {},{} {},{}\" fill=\"#333\"/>", x1, y1, x1 - 9 * ux - 5 * uy,
                         y1 - 9 * uy - 5 * ux, x1 - 9 * ux + 5 * uy, y1 - 9 * uy + 5 * ux);
   };
-  box_at(170, 10, 260, "Grain map and sheet", "stiffness and strength drawn", "#eef2f6");
-  box_at(170, 100, 260, growth ? "Grow the marked grains" : "Move walls and particles",
+  box_at(170, 4, 260, "Grain map and sheet", "stiffness and strength drawn", "#eef2f6");
+  box_at(170, 80, 260, growth ? "Grow the marked grains" : "Move walls and particles",
          growth ? "by one step, walls held" : "affinely, by one step", "#fbf3dd");
-  box_at(170, 190, 260, "Relax to equilibrium", "springs and contacts", "#e4efe6");
-  box_at(170, 280, 260, "A spring over its strength?", "largest tension over threshold", "#eef2f6");
-  box_at(490, 235, 190, "Break that one spring", "keep its contact", "#f6dfd5");
-  box_at(170, 380, 260, "Record stress, energy, cracks", "last step? then end", "#eef2f6");
-  arrow(300, 64, 300, 99);
-  arrow(300, 154, 300, 189);
-  arrow(300, 244, 300, 279);
-  arrow(300, 334, 300, 379);
-  arrow(430, 307, 585, 307, false);
-  arrow(585, 307, 585, 290);
-  arrow(585, 235, 585, 217, false);
-  arrow(585, 217, 431, 217);
-  arrow(170, 407, 110, 407, false);
-  arrow(110, 407, 110, 127, false);
-  arrow(110, 127, 169, 127);
-  body += "<text x=\"505\" y=\"326\" text-anchor=\"middle\" font-size=\"12\">yes</text>";
-  body += "<text x=\"316\" y=\"362\" font-size=\"12\">no</text>";
+  box_at(170, 156, 260, "Relax to equilibrium", "springs and contacts", "#e4efe6");
+  box_at(170, 232, 260, "A spring over its strength?", "largest tension over threshold", "#eef2f6");
+  box_at(490, 194, 190, "Break that one spring", "keep its contact", "#f6dfd5");
+  box_at(170, 308, 260, "Record stress, energy, cracks", "last step? then end", "#eef2f6");
+  for (const int below : {58, 134, 210, 286}) arrow(300, below, 300, below + 21);
+  arrow(430, 259, 585, 259, false);
+  arrow(585, 259, 585, 249);
+  arrow(585, 194, 585, 176, false);
+  arrow(585, 176, 431, 176);
+  arrow(170, 335, 110, 335, false);
+  arrow(110, 335, 110, 107, false);
+  arrow(110, 107, 169, 107);
+  body += "<text x=\"505\" y=\"277\" text-anchor=\"middle\" font-size=\"12\">yes</text>";
+  body += "<text x=\"316\" y=\"302\" font-size=\"12\">no</text>";
   body +=
-      "<text x=\"98\" y=\"270\" text-anchor=\"middle\" font-size=\"12\" transform=\"rotate(-90 98 270)\">next "
+      "<text x=\"98\" y=\"221\" text-anchor=\"middle\" font-size=\"12\" transform=\"rotate(-90 98 221)\">next "
       "step</text>";
   content.panels.push_back(
       {.id = "",
@@ -231,7 +228,7 @@ FigureContent flow(const StudyResult& study) {
        .alt =
            "From the grain map to a load step, relaxation, a test of the springs, breaking of one spring and back to "
            "relaxation until none is over its strength; then the next step.",
-       .content = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-50 0 800 445\" width=\"800\" height=\"445\" "
+       .content = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-50 0 800 368\" width=\"800\" height=\"368\" "
                   "font-family=\"DejaVu Sans\" font-size=\"12.5\">" +
                   body + "</svg>",
        .per_row = 1,
@@ -261,7 +258,7 @@ FigureContent elle_layer(const StudyResult& study) {
     const double off = std::hypot(nodes[k] - 0.5, nodes[k + 1] - 0.5 * l.height);
     if (off < best) best = off, cx = nodes[k], cy = nodes[k + 1];
   }
-  const int n = std::min(22, l.columns - 2), m = std::min(20, l.rows - 2);
+  const int n = std::min(22, l.columns - 2), m = std::min(18, l.rows - 2);
   const int c = std::clamp(static_cast<int>(cx * l.columns) - n / 2, 0, l.columns - n);
   const int row = std::clamp(static_cast<int>(cy / l.height * l.rows) - m / 2, 0, l.rows - m) / 2 * 2;
   Drawing d = draw_window(*r, {c, c + n, row, row + m}, render::column_width, true,

@@ -43,7 +43,6 @@ render::Chart stress_chart(const dem::Record& r) {
   yy.line = render::Line::dash;
   chart.series = {xx, yy};
   chart.legend = render::Chart::Legend::bottom_left;
-  chart.height = 320;
   return chart;
 }
 
@@ -57,7 +56,6 @@ render::Chart breaks_chart(const dem::Record& r) {
   breaks.colour = render::palette(0);
   chart.series = {breaks};
   chart.legend = render::Chart::Legend::none;
-  chart.height = 320;
   return chart;
 }
 
@@ -267,7 +265,6 @@ FigureContent energy(const StudyResult& study) {
     chart.x.low = 0;
     chart.x.high = last_strain;
     chart.left.high = 1.06 * most;
-    chart.height = 300;
     const double residual = r->value(quantity::energy_residual);
     const std::string label = label_of(*r, study);
     content.panels.push_back(

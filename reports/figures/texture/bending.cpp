@@ -13,8 +13,7 @@
 namespace reports::texture {
 namespace {
 
-constexpr render::Colour steel{0.35, 0.38, 0.42};
-constexpr int curves_height = 340, picture_width = 900;
+constexpr int picture_width = 900;
 constexpr double least_diameter = 76e-3;  // m, of a half disc (Kuruppu et al. 2014), beside ten grains
 
 /// What bends: where it bears, its notch, and the area that turns its stress into the load.
@@ -37,56 +36,51 @@ void add_strip(render::Scene& scene, double x, double z, double half, double sid
 Panel cracks_panel(const StudyResult& study, const SeriesCase& item, const Bent& bent, const std::string& what) {
   const Size size = size_of(*item.record);
   const double strip = std::max(0.05 * size.height, 0.5 * mean_diameter(*item.record));  // bending.h of the model
-  Picture picture = section_cracks(study, *item.record, all_cracks, item.label, picture_width);
-  render::Scene& scene = picture.scene;
-  add_strip(scene, -bent.half_span, 0, strip, -1);
-  add_strip(scene, bent.half_span, 0, strip, -1);
-  add_strip(scene, 0, size.height, strip, 1);
-  if (bent.notch > 0) {
-    scene.lines.push_back({{{0, 0, 0}, {0, 0, bent.notch}}, {0, 0, 0}, 2.5, render::Line::solid, true});
-  }
-  // The picture holds the strips too.
-  const double half = 0.5 * size.diameter, room = 1.5 * strip;
-  scene.camera.frame = {{{-half, -half, -room}, {half, half, size.height + room}}};
-  scene.height = static_cast<int>(std::lround(scene.width * (size.height + 2 * room) / size.diameter));
-  return {.id = "cracks_" + item.id,
-          .caption = "The " + what + " on its strips, with the cracks near the section at the end" +
-                     (bent.notch > 0 ? "; the notch is the thick line." : "."),
-          .alt = "Cracks at the end: " + crack_words(crack_numbers(*item.record, all_cracks)) + ".",
-          .content = std::move(picture),
-          .per_row = 1};
+  const auto load = [&](render::Scene& scene) {
+    add_strip(scene, -bent.half_span, 0, strip, -1);
+    add_strip(scene, bent.half_span, 0, strip, -1);
+    add_strip(scene, 0, size.height, strip, 1);
+    if (bent.notch > 0) {
+      scene.lines.push_back({{{0, 0, 0}, {0, 0, bent.notch}}, {0, 0, 0}, 2.5, render::Line::solid, true});
+    }
+    // The picture holds the strips too.
+    const double half = 0.5 * size.diameter, room = 1.5 * strip;
+    scene.camera.frame = {{{-half, -half, -room}, {half, half, size.height + room}}};
+    scene.height = static_cast<int>(std::lround(scene.width * (size.height + 2 * room) / size.diameter));
+  };
+  Panel panel = cracks_at_end(study, item,
+                              "The " + what +
+                                  " on its strips, cut along its middle plane, with the cracks near it at the "
+                                  "end of the test" +
+                                  (bent.notch > 0 ? "; the notch is the thick line." : "."),
+                              picture_width, load);
+  panel.per_row = 1;
+  return panel;
 }
 
-render::Chart curves_of(const std::vector<SeriesCase>& cases, const CurveOf& of, const std::string& x_title) {
-  render::Chart chart;
-  chart.x.title = x_title;
-  chart.left.title = "Load P (kN)";
-  chart.left.low = 0;
-  add_curves(chart, cases, of);
-  chart.legend = render::Chart::Legend::below;
-  chart.height = curves_height;
-  return chart;
-}
+constexpr const char* load_title = "Load P (kN)";
 
+// `depth`: "the depth W".
 void add_loads(FigureContent& content, const std::vector<SeriesCase>& cases, double area, const std::string& depth) {
   std::vector<SeriesCase> notched;
   for (const SeriesCase& item : cases) {
     if (item.record->table("history").has("opening")) notched.push_back(item);
   }
   if (!notched.empty()) {
-    content.panels.push_back(
-        {.id = "opening",
-         .caption = "Load against the opening of the notch at the lower face.",
-         .alt = "Curves of load against opening.",
-         .content = curves_of(notched, {"opening", "axial_stress", 1e6, 1e-3 * area}, "Opening of the notch (µm)"),
-         .per_row = 2});
+    content.panels.push_back({.id = "opening",
+                              .caption = "Load against the opening of the notch at the lower face.",
+                              .alt = "Curves of load against opening.",
+                              .content = load_curves(notched, {"opening", "axial_stress", 1e6, 1e-3 * area},
+                                                     "Opening of the notch (µm)", load_title),
+                              .per_row = 2});
   }
-  content.panels.push_back({.id = "deflection",
-                            .caption = "Load against the approach of the strips.",
-                            .alt = "Curves of load against deflection.",
-                            .content = curves_of(cases, {"platen_strain", "axial_stress", 100, 1e-3 * area},
-                                                 "Approach (% of " + depth + ")"),
-                            .per_row = 2});
+  content.panels.push_back(
+      {.id = "deflection",
+       .caption = "Load against the approach of the strips over " + depth + ".",
+       .alt = "Curves of load against deflection.",
+       .content = load_curves(cases, {"platen_strain", "axial_stress", 100, 1e-3 * area},
+                              "Approach (% of " + depth.substr(depth.rfind(' ') + 1) + ")", load_title),
+       .per_row = 2});
 }
 
 analysis::Estimate mean_over(const SeriesCase& item, const dem::Quantity& quantity) {
@@ -110,7 +104,7 @@ std::string cell(const SeriesCase& item, const dem::Quantity& quantity) {
 
 Panel table_panel(TextTable table) {
   return {.id = "table",
-          .caption = "Means over specimens, with their 95 % intervals.",
+          .caption = "Means over specimens; in brackets 95 % intervals, from three specimens on.",
           .alt = "",
           .content = std::move(table),
           .per_row = 1};
@@ -137,12 +131,12 @@ FigureContent bending_test(const StudyResult& study) {
                              toughness = mean_over(item, quantity::fracture_toughness);
     if (std::isfinite(rupture.value)) said.push_back("the modulus of rupture is " + said_of(item, rupture) + " MPa");
     if (std::isfinite(toughness.value)) {
-      said.push_back("K_Ic by ASTM E399 is " + said_of(item, toughness) + " MPa√m with a " + item.label);
+      said.push_back("K_Ic by the formula of ASTM E399 is " + said_of(item, toughness) + " MPa√m with a " + item.label);
     }
   }
-  add_loads(content, cases, area, "W");
+  add_loads(content, cases, area, "the depth W");
   content.panels.push_back(table_panel(std::move(table)));
-  if (!said.empty()) content.finding = "In three-point bending over four depths " + listed(said) + ".";
+  if (!said.empty()) content.finding = "In three-point bending over a span of four depths W, " + listed(said) + ".";
   return content;
 }
 
@@ -162,16 +156,16 @@ FigureContent half_disc_test(const StudyResult& study) {
     table.rows.push_back({item.label, std::to_string(item.repeats.size()), cell(item, quantity::fracture_toughness),
                           cell(item, quantity::mouth_opening)});
   }
-  add_loads(content, cases, area, "R");
+  add_loads(content, cases, area, "the radius R");
   content.panels.push_back(table_panel(std::move(table)));
   const analysis::Estimate toughness = mean_over(cases.front(), quantity::fracture_toughness);
   if (std::isfinite(toughness.value)) {
-    content.finding = fmt::format("K_Ic by the suggested method of Kuruppu et al. 2014 is {} MPa√m.",
+    content.finding = fmt::format("K_Ic by the ISRM suggested method (Kuruppu et al. 2014) is {} MPa√m.",
                                   said_of(cases.front(), toughness));
     if (diameter < least_diameter) {
-      content.finding +=
-          fmt::format(" The half disc is {} mm wide; the method asks for {:g} mm, below which K_Ic falls.",
-                      shortest(1e3 * diameter), 1e3 * least_diameter);
+      content.finding += fmt::format(
+          " The half disc is {} mm wide. The method asks for {:g} mm; smaller half discs give a lower K_Ic.",
+          shortest(1e3 * diameter), 1e3 * least_diameter);
     }
   }
   return content;

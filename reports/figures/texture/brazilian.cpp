@@ -15,8 +15,7 @@
 namespace reports::texture {
 namespace {
 
-constexpr render::Colour steel{0.35, 0.38, 0.42};
-constexpr int curves_height = 320, picture_width = 700;
+constexpr int picture_width = 700;
 
 // Direct over Brazilian tensile strength (Perras & Diederichs 2014): igneous rock, and the range over kinds of rock.
 constexpr double igneous = 0.8, lowest = 0.7, highest = 0.9;
@@ -56,16 +55,7 @@ Panel disc_panel(const StudyResult& study, const SeriesCase& item) {
       .per_row = 3};
 }
 
-render::Chart curves_of(const std::vector<SeriesCase>& cases, const CurveOf& of, const std::string& x_title) {
-  render::Chart chart;
-  chart.x.title = x_title;
-  chart.left.title = "2P/(πDt) (MPa)";
-  chart.left.low = 0;
-  add_curves(chart, cases, of);
-  chart.legend = render::Chart::Legend::below;
-  chart.height = curves_height;
-  return chart;
-}
+constexpr const char* splitting_stress = "2P/(πDt) (MPa)";
 
 std::vector<double> strengths(const std::vector<const dem::Record*>& records, const dem::Quantity& of) {
   std::vector<double> values;
@@ -129,7 +119,42 @@ render::Chart strengths_chart(const std::vector<Sample>& samples) {
   }
   chart.series = {seeds, mean};
   chart.legend = render::Chart::Legend::below;
-  chart.height = curves_height;
+  return chart;
+}
+
+// A point a kind of loading, with its interval, and the published ratios as lines.
+render::Chart ratios_chart(const StudyResult& study, const std::vector<SeriesCase>& cases,
+                           const std::vector<analysis::Estimate>& ratios) {
+  render::Chart chart;
+  chart.left.title = "Direct over Brazilian";
+  chart.left.low = 0;
+  chart.left.high = 1.2;
+  chart.x.low = 0.5;
+  chart.x.high = static_cast<double>(cases.size()) + 0.5;
+  render::Series ours{.label = "",
+                      .x = {},
+                      .y = {},
+                      .colour = render::palette(0),
+                      .line = render::Line::none,
+                      .marker = render::Marker::circle,
+                      .y_error = {}};
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    const double at = static_cast<double>(k) + 1;
+    chart.x.ticks.emplace_back(at, cases[k].label);
+    if (!std::isfinite(ratios[k].value)) continue;
+    ours.x.push_back(at);
+    ours.y.push_back(ratios[k].value);
+    ours.y_error.push_back(ratios[k].has_interval() ? ratios[k].high - ratios[k].value : 0);
+    chart.left.high = std::max(*chart.left.high, 1.05 * (ours.y.back() + ours.y_error.back()));
+  }
+  if (std::ranges::all_of(ours.y_error, [](double e) { return e == 0; })) ours.y_error.clear();
+  chart.series = {ours};
+  const double nothing = std::nan("");  // the paper is not about a rock of one's own
+  for (const auto& [value, rock] :
+       {std::pair{highest, "metamorphic"}, std::pair{igneous, "igneous"}, std::pair{lowest, "sedimentary"}})
+    add_published(chart, render::Mark::Kind::horizontal, study.of_a_paper ? value : nothing,
+                  fmt::format("published, {}: {:g}", rock, value));
+  chart.legend = render::Chart::Legend::none;
   return chart;
 }
 
@@ -156,21 +181,21 @@ FigureContent brazilian_test(const StudyResult& study) {
   if (cases.empty()) return content;
   for (const SeriesCase& item : cases) content.panels.push_back(disc_panel(study, item));
   const std::string peaks = by_case(cases, quantity::brazilian_strength, 3);
-  content.panels.push_back(
-      {.id = "load",
-       .caption = "Load against the approach of the platens over the diameter.",
-       .alt = "Curves of load; largest values of " + peaks + ".",
-       .content = curves_of(cases, {"platen_strain", "axial_stress", 100, 1e-6}, "Approach of the platens (% of D)")});
+  content.panels.push_back({.id = "load",
+                            .caption = "Load against the approach of the platens over the diameter.",
+                            .alt = "Curves of load; largest values of " + peaks + ".",
+                            .content = load_curves(cases, {"platen_strain", "axial_stress", 100, 1e-6},
+                                                   "Approach of the platens (% of D)", splitting_stress)});
   content.panels.push_back(
       {.id = "strain",
        .caption = "Load against the strain across the loaded diameter, of a round gauge in the middle.",
        .alt = "Curves of load against the tensile strain in the middle; largest loads of " + peaks + ".",
-       .content = curves_of(cases, {"axial_strain", "axial_stress", 100, 1e-6}, "Tensile strain in the middle (%)")});
+       .content = load_curves(cases, {"axial_strain", "axial_stress", 100, 1e-6}, "Tensile strain in the middle (%)",
+                              splitting_stress)});
   const Size size = size_of(*cases.front().record);
-  content.finding =
-      fmt::format("The splitting strength of discs of {:g} mm is {} ({}{}).", 1e3 * size.height, peaks,
-                  joined(labels_of(cases), ", "),
-                  cases.front().repeats.size() > 1 ? "; means of seeds, the curves are of the first" : "");
+  content.finding = fmt::format(
+      "The splitting strength of discs of {:g} mm is {} ({}{}).", 1e3 * size.height, peaks, listed(labels_of(cases)),
+      cases.front().repeats.size() > 1 ? "; means of seeds, the curves are of the first" : "");
   return content;
 }
 
@@ -194,6 +219,7 @@ FigureContent brazilian_strengths(const StudyResult& study) {
   }
   std::vector<std::string> said;
   std::vector<Agreement> verdicts;
+  std::vector<analysis::Estimate> ratios;
   for (const SeriesCase& item : cases) {
     const std::vector<double> values = strengths(item.repeats, quantity::brazilian_strength);
     samples.push_back({item.label, values});
@@ -203,6 +229,7 @@ FigureContent brazilian_strengths(const StudyResult& study) {
                           estimate_text(analysis::mean_of(values), 3, true),
                           std::isfinite(ratio.value) ? estimate_text(ratio, 2, true) : "–",
                           middle.count > 0 ? number(middle.mean, 2) : "–"});
+    ratios.push_back(ratio);
     if (!std::isfinite(ratio.value)) continue;
     verdicts.push_back(agreement_of(ratio));
     said.push_back((ratio.has_interval() ? estimate_text(ratio, 2) : number(ratio.value, 2)) + " with " + item.label);
@@ -211,6 +238,13 @@ FigureContent brazilian_strengths(const StudyResult& study) {
                             .caption = "Tensile strengths by test.",
                             .alt = "Brazilian strengths of " + by_case(cases, quantity::brazilian_strength, 3) + ".",
                             .content = strengths_chart(samples)});
+  if (!ratios.empty()) {
+    content.panels.push_back({.id = "ratios",
+                              .caption = std::string("Direct over Brazilian strength") +
+                                         (study.of_a_paper ? "; dashed: published for three kinds of rock." : "."),
+                              .alt = "Direct over Brazilian strength: " + listed(said) + ".",
+                              .content = ratios_chart(study, cases, ratios)});
+  }
   content.panels.push_back(
       {.id = "table",
        .caption = "Mean strengths and their ratio; in brackets 95 % intervals, from three specimens of each test on.",
@@ -255,17 +289,17 @@ FigureContent brazilian_cracks(const StudyResult& study) {
          .alt = fmt::format("The first {} cracks: {}.", first, crack_words(crack_numbers(record, first))),
          .content = Picture{.scene = std::move(scene), .label = item.label + ", first cracks", .legend = key},
          .per_row = 4});
-    Picture after = section_cracks(study, record, all_cracks, item.label + ", at the end", picture_width);
-    add_platens(after.scene, item);
-    content.panels.push_back({.id = "end_" + item.id,
-                              .caption = "Cracks near the section at the end of the test.",
-                              .alt = "Cracks at the end: " + crack_words(crack_numbers(record, all_cracks)) + ".",
-                              .content = std::move(after),
-                              .per_row = 4});
+    SeriesCase later = item;
+    later.label += ", at the end";
+    Panel end = cracks_at_end(study, later, "Cracks near the section at the end of the test.", picture_width,
+                              [&](render::Scene& loaded) { add_platens(loaded, item); });
+    end.id = "end_" + item.id;
+    end.per_row = 4;
+    content.panels.push_back(std::move(end));
   }
   content.finding = "Of the first cracks " + by_case(cases, quantity::first_cracks_middle, 2) +
                     " lie within half the radius of the axis, and " + by_case(cases, quantity::first_cracks_band, 2) +
-                    " within a quarter of the radius of the loaded diameter (" + joined(labels_of(cases), ", ") +
+                    " within a quarter of the radius of the loaded diameter (" + listed(labels_of(cases)) +
                     "); of cracks spread evenly, 25 and 31 % would.";
   return content;
 }

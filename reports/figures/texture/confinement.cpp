@@ -16,8 +16,6 @@
 namespace reports::texture {
 namespace {
 
-constexpr int curves_height = 340;
-
 const render::Colour peak_colour = render::palette(0), damage_colour = render::palette(1),
                      initiation_colour = render::palette(2), strain_colour = render::palette(3);
 
@@ -60,7 +58,6 @@ render::Chart against_strain(const std::vector<SeriesCase>& cases, const Column&
   chart.left.title = column.title;
   add_curves(chart, cases, {"axial_strain", column.name, 100, column.factor}, up_to);
   chart.legend = render::Chart::Legend::below;
-  chart.height = curves_height;
   return chart;
 }
 
@@ -212,7 +209,7 @@ render::Chart envelope_chart(const StudyResult& study, const analysis::Envelopes
        [&](double x) { return laboratories.share_high * found.ucs + laboratories.slope_high * x; });
   add_laboratory_tests(chart, study);
   chart.legend = render::Chart::Legend::below;
-  chart.height = 460;
+  chart.height = 380;
   return chart;
 }
 
@@ -281,7 +278,7 @@ FigureContent confinement_curves(const StudyResult& study) {
        .caption = "Axial stiffness (Eq. 9) at small strains, and where it leaves its plateau.",
        .alt = "Axial stiffness; Young’s moduli of " + by_case(cases, quantity::young_modulus, 3) + ".",
        .content = stiffness});
-  content.finding = "At " + joined(labels_of(cases), ", ") + " the peaks are " + peaks +
+  content.finding = "At " + listed(labels_of(cases)) + " the peaks are " + peaks +
                     ", and the axial stiffness leaves its plateau at strains of " + strains + ".";
   const double departure =
       study.scenario ? study.scenario->real("measure.stiffness_departure") : std::numeric_limits<double>::infinity();
@@ -380,7 +377,6 @@ FigureContent confinement_after_peak(const StudyResult& study) {
   beside.line = render::Line::dash;
   chart.series.push_back(beside);
   chart.legend = render::Chart::Legend::bottom_right;
-  chart.height = 300;
   const std::string ratios = by_case(cases, residual, 2, "");
   content.panels.push_back(
       {.id = "residual",

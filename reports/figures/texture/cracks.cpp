@@ -55,7 +55,6 @@ render::Chart bars_by_class(const std::vector<SeriesCase>& cases) {
   chart.left.title = "Number of cracks";
   chart.bars = bars;
   chart.legend = render::Chart::Legend::top_left;
-  chart.height = 340;
   return chart;
 }
 
@@ -82,7 +81,6 @@ render::Chart lines_by_class(const std::vector<SeriesCase>& cases, const dem::Pa
     if (!total.x.empty()) chart.series.push_back(total);
   }
   chart.legend = render::Chart::Legend::below;
-  chart.height = 340;
   return chart;
 }
 
@@ -262,7 +260,7 @@ FigureContent crack_counts(const StudyResult& study) {
   for (const SeriesCase& item : cases) labels.push_back(item.label);
   for (const CrackClass& one : crack_classes())
     shares.push_back(std::string(one.name) + " " + by_case(cases, share_of(one), 3, "%"));
-  const std::string found = "Cracks at " + joined(labels, ", ") + ": " + joined(parts, "; ") + ".";
+  const std::string found = "Cracks at " + listed(labels) + ": " + joined(parts, "; ") + ".";
   if (axis.id == "aspect_ratio") {
     content.panels.push_back({.id = "",
                               .caption = "Cracks at the end of loading, by class and aspect ratio." + with_its(cases),

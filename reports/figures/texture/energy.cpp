@@ -69,7 +69,6 @@ void add_dissipated(FigureContent& content, const std::vector<SeriesCase>& cases
   chart.left.title = "Dissipated (kJ/m³)";
   chart.x.low = chart.left.low = 0;
   chart.legend = render::Chart::Legend::top_left;
-  chart.height = 310;
   content.panels.push_back(
       {.id = "dissipated",
        .caption = item.label +

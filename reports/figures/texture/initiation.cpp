@@ -18,7 +18,7 @@ struct Reading {
 constexpr std::array readings{
     Reading{quantity::initiation_by_stiffness, "Axial stiffness",
             "Eq. 9 leaves its early plateau by the set share (measure.stiffness_departure)"},
-    Reading{quantity::stress_at_strain, "Strain of 0.1 %", "the stress there; the paper's own number"},
+    Reading{quantity::stress_at_strain, "Strain of 0.1 %", "the stress there"},
     Reading{quantity::initiation_by_cracks, "One percent of cracks", "as many cracks as 1 % of those at the peak"},
     Reading{quantity::initiation_by_volume, "Crack volumetric strain",
             "the volumetric strain less its elastic part turns to dilation"}};

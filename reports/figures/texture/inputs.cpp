@@ -373,7 +373,6 @@ FigureContent texture_by_seed(const StudyResult& study) {
     line("in proportion to the surface of the ellipsoid", exact_surface, render::Line::dash, 1);
     line("in proportion to Eq. 14", published_surface, render::Line::dot, 2);
     chart.legend = render::Chart::Legend::below;
-    chart.height = 360;
     content.panels.push_back({.id = "share",
                               .caption = "Share of inter-grain contacts against the aspect ratio.",
                               .alt = by_case(cases, share, 3, "%"),

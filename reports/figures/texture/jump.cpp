@@ -72,7 +72,6 @@ render::Chart profile_chart(const Across& across) {
                            .label = side < 0 ? "band" : "",
                            .colour = {0.4, 0.4, 0.4}});
   chart.legend = render::Chart::Legend::below;
-  chart.height = 320;
   return chart;
 }
 

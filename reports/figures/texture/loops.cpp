@@ -10,8 +10,6 @@
 namespace reports::texture {
 namespace {
 
-constexpr int curves_height = 340;
-
 render::Series of_loops(const dem::Record& record, const std::string& y, double factor, std::size_t look) {
   render::Series series = curve(record.table("loops"), {"strain", y, 100, factor});
   series.colour = render::palette(look);
@@ -34,7 +32,6 @@ FigureContent unloading_loops_test(const StudyResult& study) {
   render::Series line = curve(first.table("history"), {"axial_strain", "axial_stress", 100, 1e-6});
   line.colour = render::palette(0);
   stress.series.push_back(line);
-  stress.height = curves_height;
   stress.legend = render::Chart::Legend::none;
   const double strength = first.value_or_nan(quantity::compressive_strength);
   content.panels.push_back({.id = "curve",
@@ -65,7 +62,6 @@ FigureContent unloading_loops_test(const StudyResult& study) {
     }
     ++k;
   }
-  damage.height = curves_height;
   damage.legend = damage.series.size() > 1 ? render::Chart::Legend::below : render::Chart::Legend::none;
   if (!damage.series.empty()) {
     content.panels.push_back({.id = "damage",

@@ -71,7 +71,6 @@ render::Chart property_chart(PropertyBars of, const std::vector<std::string>& mi
   chart.left.low = 0;
   chart.left.high = 1.25 * highest;  // an interval from few points may be many times as long
   chart.legend = render::Chart::Legend::below;
-  chart.height = 280;
   return chart;
 }
 
@@ -211,7 +210,6 @@ FigureContent mineral_envelopes(const StudyResult& study) {
   if (chart.series.empty()) return content;
   if (last_published) chart.series[*last_published].label = "published (Table 3)";
   chart.legend = render::Chart::Legend::below;
-  chart.height = 380;
   const std::string fits =
       said.empty() ? "Too few pressures for a fit." : "Fitted with σc = UCS: " + joined(said, "; ") + ".";
   content.panels.push_back({.id = "",

@@ -97,7 +97,6 @@ render::Chart invariants_chart(const analysis::Envelopes& found, const std::opti
     chart.series.push_back(envelope_in_invariants(
         high, [&](double x) { return coulomb->line.at(x); }, coulomb_colour, render::Line::dash_dot, "Coulomb, peak"));
   chart.legend = render::Chart::Legend::below;
-  chart.height = 400;
   return chart;
 }
 

@@ -43,7 +43,6 @@ render::Chart angle_chart(const std::vector<SeriesCase>& cases) {
   }
   if (!random.x.empty()) chart.series.push_back(random);
   chart.legend = render::Chart::Legend::below;
-  chart.height = 340;
   return chart;
 }
 
@@ -117,7 +116,6 @@ FigureContent crack_orientation(const StudyResult& study) {
     chart.left.high = 90;
     chart.series = {angles, bands};
     chart.legend = render::Chart::Legend::below;
-    chart.height = 340;
     content.panels.push_back(
         {.id = "band",
          .caption = fmt::format("Mean angle of the cracks, and angle of the band, {:g} mean particle diameters thick, "

@@ -412,6 +412,27 @@ std::vector<LegendEntry> mineral_legend(const StudyResult& study, const dem::Rec
   return legend;
 }
 
+Panel cracks_at_end(const StudyResult& study, const SeriesCase& item, std::string caption, int width,
+                    const std::function<void(render::Scene&)>& load) {
+  Picture picture = section_cracks(study, *item.record, all_cracks, item.label, width);
+  if (load) load(picture.scene);
+  return {.id = "cracks_" + item.id,
+          .caption = std::move(caption),
+          .alt = "Cracks at the end: " + crack_words(crack_numbers(*item.record, all_cracks)) + ".",
+          .content = std::move(picture)};
+}
+
+render::Chart load_curves(const std::vector<SeriesCase>& cases, const CurveOf& of, const std::string& x_title,
+                          const std::string& y_title) {
+  render::Chart chart;
+  chart.x.title = x_title;
+  chart.left.title = y_title;
+  chart.left.low = 0;
+  add_curves(chart, cases, of);
+  chart.legend = cases.size() > 1 ? render::Chart::Legend::below : render::Chart::Legend::none;
+  return chart;
+}
+
 std::string reading_of(const dem::Record& record, const StudyResult& study) {
   const dem::Scenario& s = *study.scenario;
   std::vector<std::string> readings;

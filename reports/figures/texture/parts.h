@@ -87,4 +87,13 @@ std::string reading_of(const dem::Record& record, const StudyResult& study);
 
 std::vector<LegendEntry> mineral_legend(const StudyResult& study, const dem::Record& record);
 
+/// Of platens, jaws and strips.
+inline constexpr render::Colour steel{0.35, 0.38, 0.42};
+/// A body at the end of its test, cut, with the cracks near the section; `load` adds what loads it to the scene.
+Panel cracks_at_end(const StudyResult& study, const SeriesCase& item, std::string caption, int width,
+                    const std::function<void(render::Scene&)>& load = {});
+/// A curve of each case from zero, its legend below.
+render::Chart load_curves(const std::vector<SeriesCase>& cases, const CurveOf& of, const std::string& x_title,
+                          const std::string& y_title);
+
 }  // namespace reports::texture

@@ -85,7 +85,7 @@ render::Chart curves(const std::vector<Reading>& readings) {
   }
   chart.legend = render::Chart::Legend::below;
   chart.width = 640;
-  chart.height = 480;
+  chart.height = 420;
   return chart;
 }
 

@@ -16,9 +16,6 @@
 namespace reports::texture {
 namespace {
 
-constexpr int bars_height = 300;
-constexpr int curves_height = 340;  // with a legend below
-
 const render::Colour grey{0.35, 0.35, 0.35};
 
 render::Mark moment(double strain_percent, const std::string& label) {
@@ -108,7 +105,6 @@ render::Chart stress_and_strains(const StudyResult& study, const dem::Record& re
     chart.marks.push_back(moment(one.strain, ""));
   }
   chart.legend = render::Chart::Legend::below;
-  chart.height = 340;
   return chart;
 }
 
@@ -126,7 +122,6 @@ render::Chart stiffness_chart(const dem::Record& record) {
   chart.series.push_back(stiffness);
   for (const Level& one : levels_of(record)) chart.marks.push_back(moment(one.strain, one.symbol));
   chart.legend = render::Chart::Legend::none;
-  chart.height = curves_height;
   return chart;
 }
 
@@ -157,7 +152,6 @@ render::Chart cracks_chart(const dem::Record& record) {
   }
   for (const Level& one : levels_of(record)) chart.marks.push_back(moment(one.strain, one.symbol));
   chart.legend = render::Chart::Legend::below;
-  chart.height = curves_height;
   return chart;
 }
 
@@ -177,7 +171,6 @@ render::Chart compression_curves(const std::vector<SeriesCase>& cases) {
     }
   }
   chart.legend = render::Chart::Legend::below;
-  chart.height = curves_height;
   return chart;
 }
 
@@ -188,7 +181,6 @@ render::Chart volume_curves(const std::vector<SeriesCase>& cases) {
   chart.left.low = 0;
   add_curves(chart, cases, {"volumetric_strain", "axial_stress", 100, 1e-6});
   chart.legend = render::Chart::Legend::below;
-  chart.height = curves_height;
   return chart;
 }
 
@@ -199,7 +191,6 @@ render::Chart tension_curves(const std::vector<SeriesCase>& cases) {
   chart.left.low = 0;
   add_curves(chart, cases, {"axial_strain", "axial_stress", 100, 1e-6});
   chart.legend = render::Chart::Legend::below;
-  chart.height = curves_height;
   return chart;
 }
 
@@ -263,7 +254,6 @@ render::Chart strength_bars(const StudyResult& study, const std::vector<Strength
   chart.left.title = title + " (MPa)";
   chart.left.low = 0;
   chart.legend = render::Chart::Legend::below;
-  chart.height = bars_height;
   return chart;
 }
 
@@ -306,7 +296,6 @@ render::Chart ratio_chart(const StudyResult& study, const std::vector<Strength>&
   chart.left.low = std::floor(low - room);
   chart.left.high = std::ceil(high + room);
   chart.legend = render::Chart::Legend::below;
-  chart.height = bars_height;
   return chart;
 }
 
@@ -384,7 +373,6 @@ render::Chart share_chart(const std::string& title, const std::vector<SeriesCase
   chart.left.low = 0;
   chart.left.high = 100;
   chart.legend = render::Chart::Legend::below;
-  chart.height = 360;
   return chart;
 }
 

@@ -12,22 +12,13 @@
 namespace reports::texture {
 namespace {
 
-constexpr int curves_height = 340, picture_width = 600;
+constexpr int picture_width = 600;
 
 std::vector<SeriesCase> blocks(const StudyResult& study) {
   return series_of(of_mineral(study, ""), test_shear, parameter::normal_stress);
 }
 
-render::Chart curves_of(const std::vector<SeriesCase>& cases, const CurveOf& of, const std::string& title) {
-  render::Chart chart;
-  chart.x.title = "Shear displacement (% of the edge)";
-  chart.left.title = title;
-  add_curves(chart, cases, of);
-  if (of.y == "axial_stress") chart.left.low = 0;
-  chart.legend = render::Chart::Legend::below;
-  chart.height = curves_height;
-  return chart;
-}
+constexpr const char* displacement = "Shear displacement (% of the edge)";
 
 // A strength of every specimen against its normal stress, and the line through them.
 struct Envelope {
@@ -71,25 +62,26 @@ FigureContent direct_shear_test(const StudyResult& study) {
   const auto cases = blocks(study);
   if (cases.empty()) return content;
   const std::string peaks = by_case(cases, quantity::shear_strength, 3);
-  content.panels.push_back(
-      {.id = "stress",
-       .caption = "Shear stress against shear displacement.",
-       .alt = "Curves of shear stress; peaks of " + peaks + ".",
-       .content = curves_of(cases, {"platen_strain", "axial_stress", 100, 1e-6}, "Shear stress τ (MPa)")});
+  content.panels.push_back({.id = "stress",
+                            .caption = "Shear stress against shear displacement.",
+                            .alt = "Curves of shear stress; peaks of " + peaks + ".",
+                            .content = load_curves(cases, {"platen_strain", "axial_stress", 100, 1e-6}, displacement,
+                                                   "Shear stress τ (MPa)")});
+  render::Chart rise =
+      load_curves(cases, {"platen_strain", "opening", 100, 1e6}, displacement, "Rise of the upper half (µm)");
+  rise.left.low.reset();  // it may settle at first
   content.panels.push_back(
       {.id = "rise",
        .caption = "Rise of the upper half above its place under the normal stress alone.",
        .alt = "Curves of the rise; at the peak " + by_case(cases, quantity::dilation_at_peak, 2) + ".",
-       .content = curves_of(cases, {"platen_strain", "opening", 100, 1e6}, "Rise of the upper half (µm)")});
+       .content = std::move(rise)});
   for (const SeriesCase& item : cases) {
     content.panels.push_back(
-        {.id = "cracks_" + item.id,
-         .caption = "Cracks near the middle section at the end of the test; the halves slide along x.",
-         .alt = "Cracks at the end: " + crack_words(crack_numbers(*item.record, all_cracks)) + ".",
-         .content = section_cracks(study, *item.record, all_cracks, item.label, picture_width),
-         .per_row = 3});
+        cracks_at_end(study, item, "Cracks near the middle section at the end of the test; the halves slide along x.",
+                      picture_width));
+    content.panels.back().per_row = 3;
   }
-  content.finding = "The shear strength is " + peaks + " at " + joined(labels_of(cases), ", ") + ".";
+  content.finding = "The shear strength is " + peaks + " at " + listed(labels_of(cases)) + ".";
   return content;
 }
 
@@ -124,7 +116,6 @@ FigureContent direct_shear_envelope(const StudyResult& study) {
   add(quantity::shear_strength, "peak", 0);
   add(quantity::residual_shear, "residual", 1);
   chart.legend = render::Chart::Legend::below;
-  chart.height = curves_height;
   content.panels.push_back({.id = "envelope",
                             .caption = "Strengths against the normal stress, and the lines of Mohr and Coulomb.",
                             .alt = "Mohr-Coulomb lines: " + joined(said, "; ") + ".",

@@ -1,0 +1,179 @@
+// What was run: the title block and the table of cases.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "engine/model/quantities.h"
+#include "reports/granite.h"
+#include "reports/page/page.h"
+#include "reports/page/page_cases.h"
+#include "reports/page/page_parts.h"
+#include "reports/page/page_tables.h"
+#include "reports/provenance.h"
+#include "reports/text.h"
+
+namespace reports {
+namespace {
+
+// Those of the first case, and of the first whose specimen has another form.
+std::string specimen_text(const StudyResult& study) {
+  std::string text, said;
+  std::size_t least = std::numeric_limits<std::size_t>::max(), most = 0;
+  for (const CaseResult& result : study.cases) {
+    const dem::Table* particles = result.record ? result.record->find("particles") : nullptr;
+    if (!particles) continue;
+    least = std::min(least, particles->rows());
+    most = std::max(most, particles->rows());
+    const std::string size = texture::specimen_words(study, result);
+    if (!text.empty() && (size == said || size.empty())) continue;
+    const std::string shown =
+        (size.empty() ? "" : size + ", ") + count(static_cast<double>(particles->rows())) + " particles";
+    text += (text.empty() ? "" : "; ") + shown;
+    if (!said.empty()) break;
+    said = size;
+  }
+  // Blocks without a form of their own differ in their number.
+  if (said.empty() && least < most)
+    return count(static_cast<double>(least)) + " to " + count(static_cast<double>(most)) + " particles";
+  return text;
+}
+
+/// Whether the cases differ in a parameter: what all have alike is in the scenario.
+bool varies(const StudyResult& study, std::string_view parameter) {
+  std::set<std::string> values;
+  for (const CaseResult& result : study.cases) {
+    if (const auto* value = dem::find_value(result.parameters, parameter)) values.insert(parameter_text(*value));
+  }
+  return values.size() > 1;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::vector<const CaseResult*>>> by_test(const StudyResult& study) {
+  std::vector<std::pair<std::string, std::vector<const CaseResult*>>> groups;
+  for (const CaseResult& result : study.cases) {
+    if (!result.record) continue;
+    const std::string test = words(result.test());
+    auto group = std::ranges::find(groups, test, [](const auto& g) { return g.first; });
+    if (group == groups.end()) group = groups.insert(groups.end(), {test, {}});
+    group->second.push_back(&result);
+  }
+  return groups;
+}
+
+std::vector<double> values_of(const Repeats& repeats, std::string_view id) {
+  std::vector<double> values;
+  for (const CaseResult* result : repeats) {
+    if (const double* value = result->record->find_result(id)) values.push_back(*value);
+  }
+  return values;
+}
+
+std::string shown_result(const dem::Quantity& quantity, double value, bool powers) {
+  if (!std::isfinite(value)) return "–";
+  if (quantity.kind == dem::QuantityKind::count && std::floor(value) == value) return count(value);
+  return powers ? scientific(quantity.factor * value, quantity.digits)
+                : number(quantity.factor * value, quantity.digits);
+}
+
+std::string joined_notes(const std::vector<std::string>& notes) {
+  std::vector<std::string> said;
+  for (const std::string& note : notes) {
+    if (!note.empty()) said.push_back(note);
+  }
+  return joined(said, " ");
+}
+
+std::string case_label(const StudyResult& study, const CaseResult& result) {
+  const dem::Parameters& first = study.cases.front().parameters;
+  std::vector<std::string> parts;
+  std::string aspect;  // what stands for a case that nothing sets apart
+  for (const auto& [id, value] : result.parameters) {
+    if (id == "test") continue;
+    const dem::Parameter& parameter = dem::find_parameter(study.parameters, id);
+    const auto* usual = dem::find_value(first, id);
+    const std::string part = parameter_words(parameter, value);
+    if (parameter.axis && aspect.empty()) aspect = part;
+    const bool told = parameter.axis ? varies(study, id) : parameter.symbol.empty() || !usual || *usual != value;
+    if (told && !part.empty()) parts.push_back(part);
+  }
+  if (parts.empty() && !aspect.empty()) parts.push_back(aspect);
+  return parts.empty() ? capital(words(result.id)) : joined(parts, ", ");
+}
+
+PageData title_data(const StudyResult& study, const ReportOptions& options) {
+  const dem::Scenario& scenario = *study.scenario;
+  PageData data;
+  data.set("title", scenario.text("title").empty() ? capital(words(scenario.name())) : scenario.text("title"));
+  data.set("description", scenario.text("description"));
+  data.set("has_description", !scenario.text("description").empty());
+  data.set("scenario", scenario.name());
+  data.set("model", words(scenario.model()));
+  data.set("scale", scenario.scale());
+  data.set("seed", std::to_string(scenario.seed()));
+  data.set("engine_version", options.engine_version);
+  const std::string specimen = specimen_text(study);
+  data.set("has_specimen", !specimen.empty());
+  data.set("specimen", specimen);
+  const Provenance origin = provenance_of(study, options.engine_version);
+  data.set("has_physics", !origin.physics_version.empty());
+  data.set("physics_version", origin.physics_version);
+  data.set("scenario_sha256", origin.scenario_sha256);
+  const auto done = std::ranges::count_if(study.cases, [](const CaseResult& c) { return c.record != nullptr; });
+  data.set("case_count", static_cast<std::size_t>(done) == study.cases.size()
+                             ? fmt::format("{}", done)
+                             : fmt::format("{} of {}", done, study.cases.size()));
+  return data;
+}
+
+PageData cases_data(const StudyResult& study) {
+  PageData list = new_list();
+  std::vector<const CaseResult*> all;
+  for (const CaseResult& result : study.cases) all.push_back(&result);
+  for (const Repeats& repeats : analysis::repeats_of(all)) {
+    const CaseResult& result = *repeats.front();
+    PageData row;
+    row.set("id", result.id);
+    row.set("failed", !result.record);
+    if (result.record) {
+      const dem::Record& record = *result.record;
+      std::vector<std::string> parameters;
+      for (const auto& [id, value] : result.parameters) {
+        const bool said = id == "test" || !varies(study, id) || (id == "seed" && repeats.size() > 1);
+        const std::string part = said ? "" : parameter_words(dem::find_parameter(study.parameters, id), value);
+        if (!part.empty()) parameters.push_back(part);
+      }
+      if (parameters.empty()) {  // nothing sets the cases apart: what all have alike
+        for (const auto& [id, value] : result.parameters) {
+          if (id == "test" || id == "seed") continue;
+          const dem::Parameter& parameter = dem::find_parameter(study.parameters, id);
+          const std::string part = parameter.symbol.empty() ? "" : parameter_words(parameter, value);
+          if (!part.empty()) parameters.push_back(part);
+        }
+      }
+      if (repeats.size() > 1) {
+        std::vector<std::string> seeds;
+        for (const CaseResult* one : repeats) {
+          if (one->record) seeds.push_back(std::to_string(one->record->seed));
+        }
+        parameters.push_back("seeds " + listed(seeds));
+      }
+      row.set("test", words(result.test()));
+      row.set("parameters", joined(parameters, ", "));
+      using namespace dem::quantity;
+      for (const dem::Quantity& size : {particles, contacts, grains, steps}) {
+        row.set(std::string(size.id), record.has(size) ? count(record.value(size)) : "–");
+      }
+      row.set("seed", std::to_string(record.seed));
+    } else {
+      row.set("error", result.error.empty() ? "not run" : result.error);
+    }
+    list.push_back(row);
+  }
+  return list;
+}
+
+}  // namespace reports
