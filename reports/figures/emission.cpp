@@ -201,7 +201,7 @@ render::Chart source_chart(const Emission& e) {
   bars.values = {{found.number.begin(), found.number.end()}, {found.energy.begin(), found.energy.end()}};
   bars.print_values = true;
   render::Chart chart;
-  chart.x.title = "What the source does";
+  chart.x.title = "Mechanism of the source";
   chart.left.title = "Share (%)";
   chart.left.low = 0;
   chart.left.high = 110;
@@ -313,7 +313,7 @@ void add_emission(FigureContent& content, const std::vector<Emission>& all) {
   if (all.empty()) return;
   const Emission& base = all.front();
   content.panels.push_back({.id = "activity",
-                            .caption = "Cracks and events against the strain of the ends at " + base.looks.label + ".",
+                            .caption = "Cracks and events against the strain of the ends: " + base.looks.label + ".",
                             .alt = fmt::format("{} cracks are {} events.", base.hits.all.size(), base.events.size()),
                             .content = activity_chart(base),
                             .per_row = 2});
@@ -332,8 +332,7 @@ void add_emission(FigureContent& content, const std::vector<Emission>& all) {
     const Sources found = sources_of(base);
     content.panels.push_back(
         {.id = "sources",
-         .caption =
-             "What the sources do at " + base.looks.label + ", by the moment tensor of the forces that were let go.",
+         .caption = "Mechanism of the sources, by the moment tensor of the forces released: " + base.looks.label + ".",
          .alt = fmt::format("{} % of the events open, {} % shear, {} % close.", number(found.number[0], 2),
                             number(found.number[1], 2), number(found.number[2], 2)),
          .content = source_chart(base),
@@ -347,8 +346,8 @@ void add_emission(FigureContent& content, const std::vector<Emission>& all) {
     content.panels.push_back(
         {.id = "map_" + e.looks.id,
          .caption =
-             "Events as spheres with their energy as their volume, on one scale for all; none is drawn smaller than "
-             "half a particle.",
+             "Events as spheres whose volume is their energy, on one scale for all; none is drawn smaller than half a "
+             "particle.",
          .alt = fmt::format("{} events at {}.", e.events.size(), e.looks.label),
          .content = map_of(e, largest),
          .per_row = per_row});

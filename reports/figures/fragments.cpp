@@ -207,6 +207,10 @@ std::string fragments_words(const Broken& broken) {
            : n == 1 ? fmt::format("one {}", one)
                     : fmt::format("{} {}s", count(static_cast<double>(n)), one);
   };
+  if (main == 1 && smaller + single == 0) return broken.label + ": still in one part";
+  if (main == 1)
+    return fmt::format("{}: one part with {} of the volume, {} and {}", broken.label, percent(broken.parts.share(0), 0),
+                       counted(smaller, "smaller part"), counted(single, "single particle"));
   return fmt::format("{}: {} above 5 % of the volume, the largest with {}, {} and {}", broken.label,
                      counted(main, "part"), percent(broken.parts.share(0), 0), counted(smaller, "smaller part"),
                      counted(single, "single particle"));

@@ -55,8 +55,8 @@ FigureContent fragments(const StudyResult& study) {
     const render::Outline box = box_of(*broken.record);
     content.panels.push_back({.id = "apart_" + broken.id,
                               .caption =
-                                  "Parts that hold together at the end, each moved from the middle by 0.3 of its "
-                                  "distance; shares are of the volume, the others are numbers.",
+                                  "Parts that hold together at the end, each moved outwards by 0.3 of its distance "
+                                  "from the middle. Percentages are of the volume; the others are counts.",
                               .alt = fragments_words(broken) + ".",
                               .content = fragments_picture(broken, apart, {box.low, box.high}, 480),
                               .per_row = 3});

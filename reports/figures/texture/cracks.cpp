@@ -255,7 +255,7 @@ FigureContent crack_counts(const StudyResult& study) {
   std::vector<std::string> parts;
   for (const CrackClass& one : crack_classes())
     parts.push_back(std::string(one.name) + " " + by_case(cases, number_of(one), 0, ""));
-  parts.push_back("all " + by_case(cases, all_of, 0, ""));
+  parts.push_back("in all " + by_case(cases, all_of, 0, ""));
   std::vector<std::string> labels, shares;
   for (const SeriesCase& item : cases) labels.push_back(item.label);
   for (const CrackClass& one : crack_classes())

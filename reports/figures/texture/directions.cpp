@@ -31,14 +31,16 @@ Found found_in(const dem::Record& record, std::string label, int place = -1, int
 }
 
 std::string plane_words(const analysis::Maximum& m) {
-  return fmt::format("dip {}° to {}°", number(m.dip(), 2), count(std::round(m.dip_direction())));
+  return fmt::format("dips {}° towards {}°", number(m.dip(), 2), count(std::round(m.dip_direction())));
 }
 
 Net net_of(const Found& found) {
   Net net{.label = found.label, .words = {}, .poles = found.poles, .maximum = found.maximum};
   net.words.push_back(count(static_cast<double>(found.poles.weight.size())) + " poles" +
                       (found.maximum ? fmt::format(", at most {} ×", number(found.maximum->times_uniform, 2)) : ""));
-  net.words.push_back(found.maximum ? plane_words(*found.maximum) : "");
+  net.words.push_back(found.maximum ? fmt::format("dip {}° to {}°", number(found.maximum->dip(), 2),
+                                                  count(std::round(found.maximum->dip_direction())))
+                                    : "");
   return net;
 }
 
@@ -57,7 +59,7 @@ std::vector<std::string> row_of(const Found& found) {
 
 std::string words_of(const Found& found) {
   if (!found.maximum) return fmt::format("{}: {} poles, too few", found.label, found.poles.weight.size());
-  return fmt::format("{}: {} times uniform at the plane with {}", found.label, number(found.maximum->times_uniform, 2),
+  return fmt::format("{}: {} times uniform, where the plane {}", found.label, number(found.maximum->times_uniform, 2),
                      plane_words(*found.maximum));
 }
 
@@ -99,7 +101,7 @@ FigureContent crack_directions(const StudyResult& study) {
       classes.push_back(found_in(*pressed.front().record, std::string(one.name), one.place, one.mode));
     std::erase_if(classes, [](const Found& one) { return one.poles.weight.empty(); });
     content.panels.push_back({.id = "classes",
-                              .caption = "The same by class of crack at " + pressed.front().label + ".",
+                              .caption = "The same by class of crack: " + pressed.front().label + ".",
                               .alt = all_words(classes) + ".",
                               .content = nets_of(classes),
                               .per_row = 1,
@@ -132,7 +134,7 @@ FigureContent crack_directions(const StudyResult& study) {
                             .alt = "",
                             .content = table,
                             .per_row = 1});
-  content.finding = "Largest density of poles, " + all_words(found) + ".";
+  content.finding = "Largest density of poles: " + all_words(found) + ".";
   return content;
 }
 

@@ -71,7 +71,7 @@ void add_dissipated(FigureContent& content, const std::vector<SeriesCase>& cases
   chart.legend = render::Chart::Legend::top_left;
   content.panels.push_back(
       {.id = "dissipated",
-       .caption = item.label +
+       .caption = capital(item.label) +
                   ": what was dissipated, per volume. Of a bond that breaks this is the strain energy that it "
                   "held; damping is numerical, against the motion of the particles.",
        .alt = "Dissipated by the end, in kJ/m³: " + listed(ends) + ".",

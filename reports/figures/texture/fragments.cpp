@@ -27,10 +27,9 @@ FigureContent fragments(const StudyResult& study) {
   for (const Broken& broken : cases) {
     content.panels.push_back(
         {.id = "apart_" + broken.id,
-         .caption =
-             fmt::format("Parts that hold together at the end of the test, each moved from the middle by {:g} of "
-                         "its distance; shares are of the volume, the others are numbers.",
-                         apart),
+         .caption = fmt::format("Parts that hold together at the end of the test, each moved outwards by {:g} of its "
+                                "distance from the middle. Percentages are of the volume; the others are counts.",
+                                apart),
          .alt = fragments_words(broken) + ".",
          .content = fragments_picture(broken, apart, frame_of(size_of(*broken.record)), 480),
          .per_row = per_row});
@@ -53,12 +52,12 @@ FigureContent fragments(const StudyResult& study) {
                             .per_row = 2});
   content.panels.push_back({.id = "table",
                             .caption =
-                                "Parts at the end of the test. The exponent is that of the number n of particles "
-                                "in a part, n to the power of minus it, without the largest.",
+                                "Parts at the end of the test. Exponent of the power law of their numbers of particles "
+                                "n, the largest part left out.",
                             .alt = "",
                             .content = fragments_table(cases),
                             .per_row = 1});
-  content.finding = joined(said, "; ") + ".";
+  content.finding = capital(joined(said, "; ")) + ".";
   return content;
 }
 

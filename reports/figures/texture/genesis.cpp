@@ -262,7 +262,7 @@ FigureContent genesis_contacts(const StudyResult& study) {
     }
     content.panels.push_back({.id = id,
                               .caption = near ? "A few grains of the section."
-                                              : "Contacts near the section; the numbers are of all contacts.",
+                                              : "Contacts near the section; the counts are of all contacts.",
                               .alt = by,
                               .content = contacts_picture(study, *record, lines, legend, label, near),
                               .per_row = 3});

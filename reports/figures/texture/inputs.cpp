@@ -201,7 +201,7 @@ FigureContent test_setups(const StudyResult& study) {
   with_platens.push_back({steel, "platens"});
   content.panels.push_back(
       {.id = "compression",
-       .caption = "Compression between two platens.",
+       .caption = "Between two platens.",
        .alt = "The specimen between two platens.",
        .content = Picture{.scene = std::move(pressed), .label = "compression", .legend = with_platens},
        .per_row = 4});
@@ -216,7 +216,7 @@ FigureContent test_setups(const StudyResult& study) {
   with_grips.push_back({steel, "gripped discs"});
   content.panels.push_back(
       {.id = "direct_tension",
-       .caption = "Direct tension by gripped ends.",
+       .caption = "By gripped ends.",
        .alt = fmt::format("Discs of {:.2f} mm at both ends, {} particles, are gripped.", 1e3 * grip, gripped),
        .content = Picture{.scene = std::move(pulled), .label = "direct tension", .legend = with_grips},
        .per_row = 4});

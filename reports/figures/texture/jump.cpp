@@ -80,9 +80,10 @@ std::string micro(double metres) { return number(1e6 * metres, 3); }
 // Displacement in the plane of the band.
 double slip_of(const analysis::Jump& jump) { return std::hypot(jump.slip.moved, jump.sideways.moved); }
 
+constexpr const char* at_an_end = "the band reaches an end, so that there is nothing beyond it to compare";
+
 std::string jump_words(const Across& across) {
-  if (!across.jump)
-    return across.looks.label + ": the band reaches an end, so that there is nothing beyond it to compare";
+  if (!across.jump) return across.looks.label + ": " + at_an_end;
   const double opening = across.jump->opening.moved;
   return fmt::format("{}: across a band at {}° to the axis the sides have {} by {} µm and slipped by {} µm",
                      across.looks.label, number(across.fit.inclination, 2), opening > 0 ? "parted" : "closed up",
@@ -109,7 +110,7 @@ FigureContent displacement_jump(const StudyResult& study) {
                    "Opening (µm)", "Opening by even strain (µm)", "Slip, upper side up (µm)",
                    "Slip by even strain (µm)", "Slip sideways (µm)", "Sideways by even strain (µm)"},
                   {}};
-  std::vector<std::string> said;
+  std::vector<std::string> said, without;
   for (const Across& one : all) {
     std::vector<std::string> row{one.looks.label, number(one.fit.inclination, 2), number(100 * one.fit.excess(), 2),
                                  number(100 * one.strain, 3)};
@@ -118,14 +119,15 @@ FigureContent displacement_jump(const StudyResult& study) {
       row.push_back(one.jump ? micro(((*one.jump).*part).even) : "–");
     }
     table.rows.push_back(std::move(row));
-    said.push_back(jump_words(one));
+    if (one.jump) said.push_back(jump_words(one));
+    if (!one.jump) without.push_back(one.looks.label);
   }
   for (const Across* one : {&all.front(), &all.back()}) {
     if (one == &all.back() && all.size() == 1) break;
     content.panels.push_back(
         {.id = "profile_" + one->looks.id,
          .caption = fmt::format("Displacement by distance from the middle of the band with most cracks, {:g} mean "
-                                "particle diameters thick, at {}.",
+                                "particle diameters thick: {}.",
                                 band_diameters, one->looks.label),
          .alt = jump_words(*one) + ".",
          .content = profile_chart(*one),
@@ -140,7 +142,8 @@ FigureContent displacement_jump(const StudyResult& study) {
        .alt = "",
        .content = table,
        .per_row = 1});
-  content.finding = joined(said, "; ") + ".";
+  if (!without.empty()) said.push_back(listed(without) + ": " + at_an_end);
+  content.finding = capital(joined(said, "; ")) + ".";
   return content;
 }
 

@@ -500,7 +500,8 @@ FigureContent progressive_failure(const StudyResult& study) {
 FigureContent stress_strain(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "Curves agree up to crack initiation; after it the lateral strains part. From aspect ratio 1 to 3 the UCS falls "
+      "Curves agree up to crack initiation; after it the lateral strains diverge. From aspect ratio 1 to 3 the UCS "
+      "falls "
       "from 206.8 to 201.3 and 198.4 MPa, the tensile strength (TS) from 9.8 to 9.4 and 9.1 MPa; UCS/TS rises "
       "slightly.";
   content.rows = {"trend_ucs",
