@@ -122,33 +122,29 @@ render::Chart strengths_chart(const std::vector<Sample>& samples) {
   return chart;
 }
 
-// A point a kind of loading, with its interval, and the published ratios as lines.
+// A bar a kind of loading, with its interval, and the published ratios as lines.
 render::Chart ratios_chart(const StudyResult& study, const std::vector<SeriesCase>& cases,
                            const std::vector<analysis::Estimate>& ratios) {
   render::Chart chart;
   chart.left.title = "Direct over Brazilian";
   chart.left.low = 0;
-  chart.left.high = 1.2;
-  chart.x.low = 0.5;
-  chart.x.high = static_cast<double>(cases.size()) + 0.5;
-  render::Series ours{.label = "",
-                      .x = {},
-                      .y = {},
-                      .colour = render::palette(0),
-                      .line = render::Line::none,
-                      .marker = render::Marker::circle,
-                      .y_error = {}};
+  render::Bars bars;
+  bars.labels = {"this study"};
+  bars.colours = {render::palette(0)};
+  bars.values.resize(1);
+  bars.errors.resize(1);
+  bars.print_values = true;
+  bars.value_format = "{:.2f}";
+  double high = 1;
   for (std::size_t k = 0; k < cases.size(); ++k) {
-    const double at = static_cast<double>(k) + 1;
-    chart.x.ticks.emplace_back(at, cases[k].label);
-    if (!std::isfinite(ratios[k].value)) continue;
-    ours.x.push_back(at);
-    ours.y.push_back(ratios[k].value);
-    ours.y_error.push_back(ratios[k].has_interval() ? ratios[k].high - ratios[k].value : 0);
-    chart.left.high = std::max(*chart.left.high, 1.05 * (ours.y.back() + ours.y_error.back()));
+    const double half = ratios[k].has_interval() ? ratios[k].high - ratios[k].value : std::nan("");
+    bars.categories.push_back(cases[k].label);
+    bars.values[0].push_back(ratios[k].value);
+    bars.errors[0].push_back(half);
+    if (std::isfinite(ratios[k].value)) high = std::max(high, ratios[k].value + (std::isfinite(half) ? half : 0));
   }
-  if (std::ranges::all_of(ours.y_error, [](double e) { return e == 0; })) ours.y_error.clear();
-  chart.series = {ours};
+  chart.bars = bars;
+  chart.left.high = 1.2 * high;
   const double nothing = std::nan("");  // the paper is not about a rock of one's own
   for (const auto& [value, rock] :
        {std::pair{highest, "metamorphic"}, std::pair{igneous, "igneous"}, std::pair{lowest, "sedimentary"}})
@@ -238,7 +234,7 @@ FigureContent brazilian_strengths(const StudyResult& study) {
                             .caption = "Tensile strengths by test.",
                             .alt = "Brazilian strengths of " + by_case(cases, quantity::brazilian_strength, 3) + ".",
                             .content = strengths_chart(samples)});
-  if (!ratios.empty()) {
+  if (!verdicts.empty()) {
     content.panels.push_back({.id = "ratios",
                               .caption = std::string("Direct over Brazilian strength") +
                                          (study.of_a_paper ? "; dashed: published for three kinds of rock." : "."),
