@@ -98,7 +98,7 @@ struct Chart {
     outside_right,
     below
   } legend = Legend::top_left;
-  int width = 400, height = 300;  ///< px; see column_width
+  int width = 400, height = 280;  ///< px; see column_width
   int foot = 0;                   ///< px of it that are left empty at the lower end
 };
 

@@ -327,7 +327,8 @@ TEST_CASE("charts beside each other have one height, and so have their frames") 
   const auto panel = [](int labels) {
     render::Chart chart;
     for (int k = 0; k < labels; ++k)
-      chart.series.push_back({.label = "a series with a long name " + std::to_string(k), .x = {0, 1}, .y = {0, 1}});
+      chart.series.push_back(
+          {.label = "a series with a long name " + std::to_string(k), .x = {0, 1}, .y = {0, 1}, .colour = {}});
     chart.legend = render::Chart::Legend::below;
     return reports::Panel{.id = "p", .caption = "", .alt = "", .content = chart, .per_row = 2};
   };

@@ -54,7 +54,7 @@ Panel cracks_panel(const StudyResult& study, const SeriesCase& item, const Bent&
                                   "end of the test" +
                                   (bent.notch > 0 ? "; the notch is the thick line." : "."),
                               picture_width, load);
-  panel.per_row = 1;
+  panel.per_row = 2;
   return panel;
 }
 

@@ -52,7 +52,7 @@ Panel disc_panel(const StudyResult& study, const SeriesCase& item) {
       .caption = "The disc, cut at half its thickness" + (item.value > 0 ? "; R is its radius." : std::string(".")),
       .alt = "A disc of " + count(particles) + " particles between " + item.label + ".",
       .content = Picture{.scene = std::move(scene), .label = item.label, .legend = mineral_legend(study, *item.record)},
-      .per_row = 3};
+      .per_row = 4};
 }
 
 constexpr const char* splitting_stress = "2P/(πDt) (MPa)";

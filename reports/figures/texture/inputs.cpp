@@ -17,7 +17,7 @@ namespace reports::texture {
 namespace {
 
 constexpr int narrow = 320;  // px, of pictures beside each other
-const render::Colour steel{0.45, 0.48, 0.52};
+const render::Colour platen{0.45, 0.48, 0.52};
 const render::Colour frame_colour{0.24, 0.24, 0.24};  // axes of the specimen
 
 render::Point turned(const render::Point& p, double dip_direction, double dip) {
@@ -195,10 +195,10 @@ FigureContent test_setups(const StudyResult& study) {
   const double thickness = 0.04 * size.height, radius = 0.62 * size.diameter;
   const double grip = study.scenario->real("direct_tension.grip") * size.height;
   render::Scene pressed = setup_scene(study, *record, false);
-  pressed.discs.push_back(cylinder(radius, size.z_low - thickness, size.z_low, steel));
-  pressed.discs.push_back(cylinder(radius, size.z_low + size.height, size.z_low + size.height + thickness, steel));
+  pressed.discs.push_back(cylinder(radius, size.z_low - thickness, size.z_low, platen));
+  pressed.discs.push_back(cylinder(radius, size.z_low + size.height, size.z_low + size.height + thickness, platen));
   std::vector<LegendEntry> with_platens = mineral_legend(study, *record), with_grips = with_platens;
-  with_platens.push_back({steel, "platens"});
+  with_platens.push_back({platen, "platens"});
   content.panels.push_back(
       {.id = "compression",
        .caption = "Between two platens.",
@@ -210,10 +210,10 @@ FigureContent test_setups(const StudyResult& study) {
   for (std::size_t i = 0; i < pulled.spheres[0].centre.size(); ++i) {
     const double z = pulled.spheres[0].centre[i][2] - size.z_low;
     if (z > grip && z < size.height - grip) continue;
-    pulled.spheres[0].colour[i] = steel;
+    pulled.spheres[0].colour[i] = platen;
     ++gripped;
   }
-  with_grips.push_back({steel, "gripped discs"});
+  with_grips.push_back({platen, "gripped discs"});
   content.panels.push_back(
       {.id = "direct_tension",
        .caption = "By gripped ends.",
