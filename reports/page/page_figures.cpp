@@ -243,11 +243,24 @@ std::vector<Row> rows_of(const std::vector<DrawnPanel>& panels) {
   return rows;
 }
 
+// Without the classes of a key that no picture of the row has.
+std::vector<DrawnPanel> with_used_classes(std::span<const DrawnPanel> row) {
+  std::vector<DrawnPanel> members(row.begin(), row.end());
+  const auto unused = [&](const LegendEntry& entry) {
+    return std::ranges::all_of(row, [&](const DrawnPanel& panel) {
+      return std::ranges::all_of(
+          panel.legend, [&](const LegendEntry& other) { return other.text != entry.text || other.count == "none"; });
+    });
+  };
+  for (DrawnPanel& panel : members) std::erase_if(panel.legend, unused);
+  return members;
+}
+
 PageData rows_data(const DrawnFigure& figure, const std::filesystem::path& folder) {
   const std::vector<DrawnPanel>& panels = figure.panels;
   PageData rows = new_list();
   for (const Row& each : rows_of(panels)) {
-    const std::span<const DrawnPanel> members(&panels[each.begin], each.end - each.begin);
+    const std::vector<DrawnPanel> members = with_used_classes({&panels[each.begin], each.end - each.begin});
     const int per_row = std::max(1, members.front().per_row);
     const Shared shared = shared_by(members);
     PageData list = new_list();

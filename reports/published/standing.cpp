@@ -61,7 +61,7 @@ void set_standing(DrawnFigure& figure, const Comparisons& comparisons, const std
                                                                     : Agreement::agrees;
   } else if (counts.numbers() > 0) {
     figure.agreement.reset();
-    figure.standing = counts.not_judged > 0 ? "Not judged" : "Not computed";
+    figure.standing = counts.not_judged > 0 ? "Not judged" : "Not compared";
   }
   if (figure.agreement) figure.standing = std::string(word_of(*figure.agreement));
   if (figure.standing.empty()) return;

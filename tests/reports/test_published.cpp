@@ -376,7 +376,7 @@ TEST_CASE("what stands before ours follows from the numbers that the statement s
         "Not judged at draft scale (1 of 2 not computed).");
   CHECK(standing({row("a", Verdict::missed, "paper"), row("b", Verdict::met)}) == "Agrees (1 of 2 not judged).");
   CHECK(standing({row("a", Verdict::missed, "paper")}, Agreement::agrees) == "Not judged at draft scale.");
-  CHECK(standing({row("a", Verdict::not_computed, "paper")}) == "Not computed at draft scale.");
+  CHECK(standing({row("a", Verdict::not_computed, "paper")}) == "Not compared at draft scale.");
   CHECK(standing({row("a", Verdict::met, "any")}) == "Agrees.");
   CHECK(standing({}, Agreement::disagrees) == "Disagrees.");
   CHECK(standing({}) == "");

@@ -12,6 +12,8 @@
 namespace reports::lattice {
 namespace {
 
+constexpr int inset_height = 340;  // of a chart with another one in it
+
 // Time of the sample of largest stress.
 double peak_time(const dem::Table& h) {
   const auto stress = h.real("axial_stress");
@@ -155,7 +157,8 @@ FigureContent stress_strain(const StudyResult& study) {
   inset.series = {part};
   inset.marks.push_back(dot(1e3 * r->value_or_nan(quantity::a1_strain), r->value_or_nan(quantity::a1_stress), "A₁"));
   inset.legend = render::Chart::Legend::none;
-  chart.insets.push_back({{inset}, {0.60, 0.13, 0.36, 0.28}});
+  chart.insets.push_back({{inset}, {0.58, 0.10, 0.38, 0.42}});
+  chart.height = inset_height;
   chart.legend = render::Chart::Legend::none;
   content.panels.push_back(
       {.id = "",
@@ -207,9 +210,9 @@ FigureContent energy_compression(const StudyResult& study) {
   inset.left.title = "Kinetic (" + small.name + ")";
   inset.series = {styled(window(h, "kinetic", from, to, m.c1, small.factor), "", 1)};
   inset.legend = render::Chart::Legend::none;
-  chart.insets.push_back({{inset}, {0.14, 0.40, 0.40, 0.40}});
+  chart.insets.push_back({{inset}, {0.12, 0.34, 0.42, 0.52}});
   chart.legend = render::Chart::Legend::below;
-  chart.height = 320;
+  chart.height = inset_height;
   content.panels.push_back(
       {.id = "",
        .caption = "Compression: energy against time; the inset shows the kinetic energy at failure.",
@@ -263,9 +266,9 @@ FigureContent energy_tension(const StudyResult& study) {
     add_published(chart, render::Mark::Kind::horizontal, 0.01 * share * unit.factor * value_at(h, {"work"}, m.d1),
                   fmt::format("published largest kinetic energy, {} %", number(share, 3)));
     inset.legend = render::Chart::Legend::none;
-    chart.insets.push_back({{inset}, {0.10, 0.44, 0.40, 0.44}});
+    chart.insets.push_back({{inset}, {0.09, 0.38, 0.42, 0.54}});
     chart.legend = render::Chart::Legend::below;
-    chart.height = 320;
+    chart.height = inset_height;
     const std::string planes = planes_of(*r);
     content.panels.push_back(
         {.id = planes,

@@ -189,10 +189,10 @@ FigureContent flow(const StudyResult& study) {
   std::string body;
   const auto box_at = [&](double x, double y, double w, std::string_view a, std::string_view b, std::string_view fill) {
     body += fmt::format(
-        "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"54\" rx=\"7\" fill=\"{}\" stroke=\"#333\" stroke-width=\"1.5\"/>"
+        "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"46\" rx=\"7\" fill=\"{}\" stroke=\"#333\" stroke-width=\"1.5\"/>"
         "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text><text x=\"{}\" y=\"{}\" "
         "text-anchor=\"middle\">{}</text>",
-        x, y, w, fill, x + w / 2, y + 22, a, x + w / 2, y + 42, b);
+        x, y, w, fill, x + w / 2, y + 19, a, x + w / 2, y + 37, b);
   };
   const auto arrow = [&](double x0, double y0, double x1, double y1, bool tip = true) {
     body += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" stroke=\"#333\" stroke-width=\"1.6\"/>", x0, y0,
@@ -203,24 +203,24 @@ FigureContent flow(const StudyResult& study) {
                         y1 - 9 * uy - 5 * ux, x1 - 9 * ux + 5 * uy, y1 - 9 * uy + 5 * ux);
   };
   box_at(170, 4, 260, "Grain map and sheet", "stiffness and strength drawn", "#eef2f6");
-  box_at(170, 80, 260, growth ? "Grow the marked grains" : "Move walls and particles",
+  box_at(170, 70, 260, growth ? "Grow the marked grains" : "Move walls and particles",
          growth ? "by one step, walls held" : "affinely, by one step", "#fbf3dd");
-  box_at(170, 156, 260, "Relax to equilibrium", "springs and contacts", "#e4efe6");
-  box_at(170, 232, 260, "A spring over its strength?", "largest tension over threshold", "#eef2f6");
-  box_at(490, 194, 190, "Break that one spring", "keep its contact", "#f6dfd5");
-  box_at(170, 308, 260, "Record stress, energy, cracks", "last step? then end", "#eef2f6");
-  for (const int below : {58, 134, 210, 286}) arrow(300, below, 300, below + 21);
-  arrow(430, 259, 585, 259, false);
-  arrow(585, 259, 585, 249);
-  arrow(585, 194, 585, 176, false);
-  arrow(585, 176, 431, 176);
-  arrow(170, 335, 110, 335, false);
-  arrow(110, 335, 110, 107, false);
-  arrow(110, 107, 169, 107);
-  body += "<text x=\"505\" y=\"277\" text-anchor=\"middle\" font-size=\"12\">yes</text>";
-  body += "<text x=\"316\" y=\"302\" font-size=\"12\">no</text>";
+  box_at(170, 136, 260, "Relax to equilibrium", "springs and contacts", "#e4efe6");
+  box_at(170, 202, 260, "A spring over its strength?", "largest tension over threshold", "#eef2f6");
+  box_at(490, 169, 190, "Break that one spring", "keep its contact", "#f6dfd5");
+  box_at(170, 268, 260, "Record stress, energy, cracks", "last step? then end", "#eef2f6");
+  for (const int below : {50, 116, 182, 248}) arrow(300, below, 300, below + 19);
+  arrow(430, 225, 585, 225, false);
+  arrow(585, 225, 585, 216);
+  arrow(585, 169, 585, 154, false);
+  arrow(585, 154, 431, 154);
+  arrow(170, 291, 110, 291, false);
+  arrow(110, 291, 110, 93, false);
+  arrow(110, 93, 169, 93);
+  body += "<text x=\"505\" y=\"242\" text-anchor=\"middle\" font-size=\"12\">yes</text>";
+  body += "<text x=\"316\" y=\"262\" font-size=\"12\">no</text>";
   body +=
-      "<text x=\"98\" y=\"221\" text-anchor=\"middle\" font-size=\"12\" transform=\"rotate(-90 98 221)\">next "
+      "<text x=\"98\" y=\"192\" text-anchor=\"middle\" font-size=\"12\" transform=\"rotate(-90 98 192)\">next "
       "step</text>";
   content.panels.push_back(
       {.id = "",
@@ -228,7 +228,7 @@ FigureContent flow(const StudyResult& study) {
        .alt =
            "From the grain map to a load step, relaxation, a test of the springs, breaking of one spring and back to "
            "relaxation until none is over its strength; then the next step.",
-       .content = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-50 0 800 368\" width=\"800\" height=\"368\" "
+       .content = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-50 0 800 320\" width=\"800\" height=\"320\" "
                   "font-family=\"DejaVu Sans\" font-size=\"12.5\">" +
                   body + "</svg>",
        .per_row = 1,
