@@ -159,7 +159,7 @@ render::Chart fragments_by_number(const std::vector<Broken>& cases) {
 render::Chart fragments_by_volume(const std::vector<Broken>& cases) {
   render::Chart chart;
   chart.x.title = "Diameter of a sphere of the part’s volume (mm)";
-  chart.left.title = "Volume in parts up to that size (%)";
+  chart.left.title = "Volume up to that size (%)";
   chart.x.logarithmic = true;
   chart.left.low = 0;
   chart.left.high = 100;

@@ -209,7 +209,7 @@ render::Chart envelope_chart(const StudyResult& study, const analysis::Envelopes
        [&](double x) { return laboratories.share_high * found.ucs + laboratories.slope_high * x; });
   add_laboratory_tests(chart, study);
   chart.legend = render::Chart::Legend::below;
-  chart.height = 380;
+  chart.height = 350;
   return chart;
 }
 
