@@ -63,8 +63,8 @@ constexpr std::array<std::string_view, 20> telling{"brazilian_strength",
                                                    "onset_strain",
                                                    "inter_grain_crack_share",
                                                    "mouth_opening",
-                                                   "first_cracks_middle",
-                                                   "first_cracks_band",
+                                                   "first_cracks.middle",
+                                                   "first_cracks.band",
                                                    "peak_strain"};
 constexpr std::array<std::string_view, 3> of_specimens{"inter_grain_share", "realised_aspect_ratio", "coordination"};
 

@@ -307,7 +307,7 @@ TEST_CASE("a specimen that is cut through is two parts, and a cut is the plane o
   cracks.add("contact", "", contact);
   set_table(record, cracks);
   CHECK(has(reports::texture::fragments(made.study()).finding, "2 parts above 5 % of the volume"));
-  CHECK(has(reports::texture::crack_directions(made.study()).finding, "dip 0° to"));
+  CHECK(has(reports::texture::crack_directions(made.study()).finding, "dips 0° towards"));
 }
 
 TEST_CASE("figures stand with one case and with none") {
