@@ -8,8 +8,9 @@
 
 namespace reports {
 
-/// No picture is printed higher, mm: rows that high leave no page a third empty.
-inline constexpr double highest_picture = 64;
+/// How high a picture is printed at most, mm, where as many stand beside each other: with what stands below it, a row leaves
+/// no page a third empty.
+constexpr double highest_picture(int per_row) { return per_row == 1 ? 52 : 64; }
 
 /// A bar below a picture that tells its scale.
 struct ScaleBar {

@@ -56,7 +56,7 @@ render::Scene sized(render::Scene scene, int per_row, double dpi) {
   scene.shown = static_cast<double>(render::page_width) / std::max(2, per_row);
   const double mm = scene.shown * render::column_mm / render::column_width;
   // A high picture is printed less wide: its words are as large as all others there.
-  scene.shown *= std::min(1.0, highest_picture * scene.width / scene.height / mm);
+  scene.shown *= std::min(1.0, highest_picture(per_row) * scene.width / scene.height / mm);
   const double factor = mm / 25.4 * dpi / scene.width;
   scene.width = std::max(1, static_cast<int>(std::lround(factor * scene.width)));
   scene.height = std::max(1, static_cast<int>(std::lround(factor * scene.height)));

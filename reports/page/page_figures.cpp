@@ -47,7 +47,7 @@ bool same_key(const std::vector<LegendEntry>& a, const std::vector<LegendEntry>&
 /// up to that height.
 double print_width(const DrawnPanel& panel) {
   if (!panel.image.ends_with(".png")) return panel.width * render::column_mm / render::column_width;
-  return panel.height > 0 ? highest_picture * panel.width / panel.height : 0;
+  return panel.height > 0 ? highest_picture(panel.per_row) * panel.width / panel.height : 0;
 }
 
 bool is_tall(const DrawnPanel& panel) { return panel.height > panel.width * 3 / 2; }

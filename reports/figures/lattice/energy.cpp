@@ -157,7 +157,7 @@ FigureContent stress_strain(const StudyResult& study) {
   inset.series = {part};
   inset.marks.push_back(dot(1e3 * r->value_or_nan(quantity::a1_strain), r->value_or_nan(quantity::a1_stress), "A₁"));
   inset.legend = render::Chart::Legend::none;
-  chart.insets.push_back({{inset}, {0.58, 0.10, 0.38, 0.42}});
+  chart.insets.push_back({{inset}, {0.62, 0.10, 0.30, 0.34}});
   chart.height = inset_height;
   chart.legend = render::Chart::Legend::none;
   content.panels.push_back(

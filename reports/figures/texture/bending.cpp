@@ -54,7 +54,6 @@ Panel cracks_panel(const StudyResult& study, const SeriesCase& item, const Bent&
                                   "end of the test" +
                                   (bent.notch > 0 ? "; the notch is the thick line." : "."),
                               picture_width, load);
-  panel.per_row = 2;
   return panel;
 }
 
@@ -125,6 +124,7 @@ FigureContent bending_test(const StudyResult& study) {
   for (SeriesCase& item : cases) {
     item.label = item.value > 0 ? "notch of " + shortest(item.value) + " W" : "no notch";
     content.panels.push_back(cracks_panel(study, item, {2 * depth, item.value * depth, area}, "bar"));
+    content.panels.back().per_row = std::min(2, static_cast<int>(cases.size()));
     table.rows.push_back({item.label, std::to_string(item.repeats.size()), cell(item, quantity::modulus_of_rupture),
                           cell(item, quantity::fracture_toughness), cell(item, quantity::mouth_opening)});
     const analysis::Estimate rupture = mean_over(item, quantity::modulus_of_rupture),
@@ -153,6 +153,7 @@ FigureContent half_disc_test(const StudyResult& study) {
   TextTable table{{"Half disc", "Specimens", "K_Ic (MPa√m)", "Opening at the largest load (µm)"}, {}};
   for (const SeriesCase& item : cases) {
     content.panels.push_back(cracks_panel(study, item, {span / 2, notch, area}, "half disc"));
+    content.panels.back().per_row = std::min(2, static_cast<int>(cases.size()));
     table.rows.push_back({item.label, std::to_string(item.repeats.size()), cell(item, quantity::fracture_toughness),
                           cell(item, quantity::mouth_opening)});
   }
