@@ -77,10 +77,10 @@ std::string with_indices(std::string_view text) {
 }
 
 bool is_unit(std::string_view word) {
-  constexpr std::array<std::string_view, 36> units{
-      "%",   "m",   "mm",  "µm",  "nm",  "cm",   "km",    "mm²", "mm³", "m²", "m³",    "Pa",
-      "kPa", "MPa", "GPa", "N",   "kN",  "N/m",  "J",     "mJ",  "µJ",  "kJ", "kJ/m³", "J/m²",
-      "s",   "ms",  "µs",  "s⁻¹", "m/s", "mm/s", "kg/m³", "kg",  "K",   "°C", "rad",   "MPa√m"};
+  constexpr std::array<std::string_view, 37> units{
+      "%",   "m",   "mm",  "µm",   "nm",    "cm", "km", "mm²", "mm³", "m²",    "m³",   "Pa", "kPa",
+      "MPa", "GPa", "N",   "kN",   "N/m",   "J",  "mJ", "µJ",  "kJ",  "kJ/m³", "J/m²", "s",  "ms",
+      "µs",  "s⁻¹", "m/s", "mm/s", "kg/m³", "kg", "K",  "°C",  "rad", "MPa√m", "k"};
   while (!word.empty() && std::string_view(".,;:)?").find(word.back()) != std::string_view::npos) word.remove_suffix(1);
   return std::ranges::find(units, word) != units.end();
 }
