@@ -145,7 +145,7 @@ void set_table(PageData& data, const TextTable& table) {
     one.set("cells", values);
     rows.push_back(one);
   }
-  constexpr std::size_t few = 6;
+  constexpr std::size_t few = 8;
   data.set("short", table.rows.size() <= few);
   data.set("table_head", head);
   data.set("table_rows", rows);

@@ -47,14 +47,16 @@ std::string computed_text(const Comparison& row) {
 }
 
 // Of a share of something, "%" becomes points.
-std::string difference_unit(const std::string& unit) { return unit == "%" ? "points" : unit; }
+std::string difference_unit(const std::string& unit, double amount) {
+  return unit != "%" ? unit : std::abs(amount) == 1 ? "point" : "points";
+}
 
 std::string tolerance_text(const Comparison& row) {
   if (!row.tolerance) return row.estimate && row.estimate->has_interval() ? "by interval" : "–";
   constexpr double rounding = 1e-6;  // a tolerance that lets only rounding pass
   if (*row.tolerance <= rounding) return "none";
   if (row.relative) return "± " + shortest(100 * *row.tolerance) + " %";
-  return with_unit("± " + shortest(*row.tolerance), difference_unit(row.unit));
+  return with_unit("± " + shortest(*row.tolerance), difference_unit(row.unit, *row.tolerance));
 }
 
 // What a row is, where it does not count as met or missed.
@@ -93,7 +95,7 @@ std::string deviation_text(const Comparison& row) {
   if (!row.deviation) return "–";
   if (*row.deviation == 0 && std::holds_alternative<std::pair<double, double>>(row.published)) return "within";
   if (row.relative) return with_sign(fixed(100 * *row.deviation, 1)) + " %";
-  return with_unit(with_sign(number(*row.deviation, 2)), difference_unit(row.unit));
+  return with_unit(with_sign(number(*row.deviation, 2)), difference_unit(row.unit, *row.deviation));
 }
 
 PageData comparisons_data(const Comparisons& comparisons) {
