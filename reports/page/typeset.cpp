@@ -90,8 +90,9 @@ bool takes_number(std::string_view word) {
   constexpr std::array<std::string_view, 21> names{"Fig.",    "Figs.",    "Eq.", "Eqs.", "Table", "Tables", "Section",
                                                    "section", "Sections", "AR",  "σ₃",   "σₙ",    "dip",    "m",
                                                    "M",       "b",        "≥",   "≤",    "<",     "±",      "p"};
-  while (!word.empty() && std::string_view("(“").find(word.front()) != std::string_view::npos) word.remove_prefix(1);
-  if (word.starts_with("“")) word.remove_prefix(std::string_view("“").size());
+  for (const std::string_view opening : {"(", "“"}) {
+    if (word.starts_with(opening)) word.remove_prefix(opening.size());
+  }
   return std::ranges::find(names, word) != names.end();
 }
 

@@ -49,6 +49,7 @@ TEST_CASE("a page is set in type: indices, no-break spaces, degrees, apostrophes
       {"6.25 mm × 12.5 mm, ± 5 °, 3 points", "6.25~mm~×~12.5~mm, ±~5°, 3 points"},
       {"the grains&apos; ratio, the paper's own 'word'", "the grains’ ratio, the paper’s own 'word’"},
       {"of 5 mm", "of 5~mm"},
+      {"(p ≤ 0.001), (“Table 4”", "(p ≤~0.001), (“Table~4”"},
       {"5 more", "5 more"},
       {"", ""}};
   for (const auto& [plain, set] : texts) {
