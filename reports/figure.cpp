@@ -32,6 +32,9 @@ void match(render::Chart& a, render::Chart& b) {
   other.foot = static_cast<int>(std::lround(std::abs(more)));
   lower.height += other.foot;
   other.height = lower.height;
+  // With more room a legend may stand in the frame of its data, not below it.
+  constexpr double alike = 2;  // px
+  if (render::plot_height(lower) > render::plot_height(other) + alike) other.foot = 0;
 }
 
 }  // namespace
