@@ -1,6 +1,7 @@
 #include "engine/core/threads.h"
 
 #include <immintrin.h>
+#include <time.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -16,11 +17,19 @@ constexpr int spins = 1000;  // 20 to 50 microseconds: more than threads of a st
   if (std::getenv("OMP_WAIT_POLICY") == nullptr) setenv("GOMP_SPINCOUNT", "1000", 0);
 }
 
-constexpr double window = 0.1;                                             // s: many turns of the scheduler
-constexpr double first_interval = 0.4, longest_interval = 60, slower = 4;  // s, s, times as seldom
+constexpr double window = 0.1;                                 // s: many turns of the scheduler
+constexpr double first_interval = 0.4, longest_interval = 60;  // s
 constexpr std::size_t turns = 5;
 constexpr double hopeless = 0.75, plain = 1.3;  // ratios that need no further turn
 constexpr double gain = 1.05;                   // that makes more threads worth it: fewer leave room for others
+constexpr double crowded = 0.75;                // share of a core below which others keep the cores busy: free cores
+                                                // give 0.89 to 1, two busy neighbours on two cores 0.06 to 0.5
+
+double read(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 }  // namespace
 
@@ -40,6 +49,10 @@ void Barrier::wait() {
   turn_.wait(turn, std::memory_order_acquire);
 }
 
+Clocks system_clocks() {
+  return {.wall = [] { return read(CLOCK_MONOTONIC); }, .thread = [] { return read(CLOCK_THREAD_CPUTIME_ID); }};
+}
+
 int Pace::threads(int most) {
   if (most != most_) {
     most_ = now_ = most;
@@ -51,6 +64,11 @@ int Pace::threads(int most) {
   return phase_ == Phase::trial ? tried_ : now_;
 }
 
+int Pace::begin(int most) {
+  began_ = clocks_.wall();
+  return threads(most);
+}
+
 int Pace::other() const {
   const bool more = now_ == 1 || (up_ && now_ < most_);
   return more ? std::min(2 * now_, most_) : now_ / 2;
@@ -59,17 +77,36 @@ int Pace::other() const {
 void Pace::next(Phase phase) {
   phase_ = phase;
   work_ = seconds_ = 0;
+  wall_ = clocks_.wall();
+  thread_ = clocks_.thread();
 }
 
-void Pace::done(double work, double seconds) {
+// Back to steady work, on another number of threads or on the same.
+void Pace::settle(bool changed, double seldom) {
+  interval_ = changed ? first_interval : std::min(seldom * interval_, longest_interval);
+  up_ = !up_;
+  since_ = 0;
+  ratios_.clear();
+  next(Phase::steady);
+}
+
+void Pace::done(double work) {
+  const double seconds = clocks_.wall() - began_;
   work_ += work;
   seconds_ += seconds;
   since_ += seconds;
   if (most_ <= 1 || seconds_ < window || work_ <= 0) return;
   const double rate = work_ / seconds_;
+  // Asked once a window: the question itself may end the thread's turn.
+  const bool crowd = clocks_.thread() - thread_ < crowded * (clocks_.wall() - wall_);
   if (phase_ == Phase::trial) {
+    if (crowd && tried_ > now_) return settle(false, 2);  // others may be gone soon
     trial_rate_ = rate;
     return next(Phase::check);
+  }
+  if (crowd && now_ > 1) {
+    now_ /= 2;
+    return settle(true);
   }
   if (phase_ == Phase::check) {  // the rates of before the trial and after it
     const bool fewer = tried_ < now_;
@@ -80,16 +117,12 @@ void Pace::done(double work, double seconds) {
     if (!seen && ratios_.size() < turns) return next(Phase::trial);
     std::ranges::nth_element(ratios_, ratios_.begin() + static_cast<std::ptrdiff_t>(ratios_.size() / 2));
     const bool better = ratios_[ratios_.size() / 2] > (fewer ? 1 : gain);
-    ratios_.clear();
     if (better) now_ = tried_;
-    interval_ = better ? first_interval : std::min(slower * interval_, longest_interval);
-    up_ = !up_;
-    since_ = 0;
-    return next(Phase::steady);
+    return settle(better);
   }
   rate_ = rate;
   next(Phase::steady);
-  if (since_ < interval_) return;
+  if (since_ < interval_ || (crowd && other() > now_)) return;
   tried_ = other();
   next(Phase::trial);
 }

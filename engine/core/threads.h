@@ -3,6 +3,8 @@
 // threads are often not on a processor: one that spins until they come keeps them off it. So all waiting here, and that
 // of OpenMP's own regions, spins for some tens of microseconds and then sleeps.
 #include <atomic>
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace dem {
@@ -21,25 +23,41 @@ class Barrier {
   alignas(64) std::atomic<unsigned> turn_{0};
 };
 
-/// How many threads serve a long piece of work best, found while it runs: now and then tenths of a second on half as
-/// many, or on twice as many again, in turn with as many as now; the faster number by the median of up to five turns is
-/// kept, as one turn on a busy machine tells little. It asks more seldom while nothing changes.
+/// s by two clocks: the wall's, and that of the thread that asks, which stands while the thread has no core or sleeps.
+struct Clocks {
+  std::function<double()> wall, thread;
+};
+Clocks system_clocks();
+
+/// How many threads serve a long piece of work best, found while it runs. Where other processes keep the cores busy,
+/// half as many: a thread that waits for its core keeps all others waiting, and how long is a matter of chance that no
+/// short trial tells. Where cores are free, now and then tenths of a second on half as many, or on twice as many again,
+/// in turn with as many as now; the faster number by the median of up to five turns is kept. It asks more seldom while
+/// nothing changes.
 class Pace {
  public:
-  /// Of the next stretch of work; all of them until something else was seen to be faster.
+  explicit Pace(Clocks clocks = system_clocks()) : clocks_(std::move(clocks)) {}
+
+  /// How many now; all of them until something else was seen to be better.
   [[nodiscard]] int threads(int most);
-  /// The stretch is done: so much work in so many seconds.
-  void done(double work, double seconds);
+  /// The same, of a stretch of work that begins now.
+  [[nodiscard]] int begin(int most);
+  /// The stretch is done, by the same thread: so much work.
+  void done(double work);
 
  private:
   enum class Phase { steady, trial, check };
   [[nodiscard]] int other() const;
   void next(Phase phase);
+  void settle(bool changed, double seldom = 4);
 
   int most_ = 0, now_ = 0, tried_ = 0;
   bool up_ = false;  ///< more threads are tried next, where there are more
   Phase phase_ = Phase::steady;
-  double work_ = 0, seconds_ = 0;     ///< of this window
+  Clocks clocks_;
+  double began_ = 0;                  ///< this stretch, by the clock on the wall
+  double work_ = 0, seconds_ = 0;     ///< of this window's stretches
+  double wall_ = 0, thread_ = 0;      ///< the clocks as this window began
   double since_ = 0, interval_ = 0;   ///< s since the last trial, and between trials
   double rate_ = 0, trial_rate_ = 0;  ///< of the last windows
   std::vector<double> ratios_ = {};   ///< of this trial to the windows before and after it, turn by turn

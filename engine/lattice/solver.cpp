@@ -4,7 +4,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -321,8 +320,7 @@ struct Solver::Impl {
     for (bool stopped = false; job.last < steps && !stopped;) {
       job.first = job.last;
       const int until = job.last = most > 1 ? std::min(steps, job.first + stretch) : steps;
-      const auto start = std::chrono::steady_clock::now();
-      const int threads = pace.threads(most);
+      const int threads = pace.begin(most);
       Barrier barrier(threads);
       if (threads == 1) {
         work(0, 1, job, barrier);
@@ -335,7 +333,7 @@ struct Solver::Impl {
         }
       }
       stopped = job.last < until;
-      pace.done(job.last - job.first, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+      pace.done(job.last - job.first);
     }
     step += job.last;
     collect();

@@ -1,7 +1,6 @@
 #include "engine/sheet/experiment.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -172,8 +171,7 @@ void Experiment::close_step() {
 
 bool Experiment::advance() {
   if (state_.finished) return false;
-  solver_->set_threads(pace_.threads(threads_));
-  const auto start = std::chrono::steady_clock::now();
+  solver_->set_threads(pace_.begin(threads_));
   const SolverWork before = solver_->work();
   if (!state_.breaking) {
     load_part();
@@ -181,8 +179,7 @@ bool Experiment::advance() {
     close_step();
   }
   const SolverWork after = solver_->work();
-  pace_.done(static_cast<double>(after.solves - before.solves),
-             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  pace_.done(static_cast<double>(after.solves - before.solves));
   return !state_.finished;
 }
 

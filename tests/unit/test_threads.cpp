@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <cmath>
+#include <memory>
 #include <thread>
 #include <vector>
 
@@ -35,24 +38,35 @@ TEST_CASE("a barrier holds more threads than there are cores together") {
 
 namespace {
 
-// Threads taken after some seconds of work, where n threads do so much a second.
-template <class Rate>
-int taken(Pace& pace, int most, double seconds, Rate rate) {
-  for (double t = 0; t < seconds; t += 0.01) pace.done(0.01 * rate(pace.threads(most)), 0.01);
-  return pace.threads(most);
-}
-
-// Share of the work that the best number of threads would have done.
-template <class Rate>
-double share(Pace& pace, int most, double seconds, Rate rate, double best) {
-  double done = 0;
-  for (double t = 0; t < seconds; t += 0.01) {
-    const double work = 0.01 * rate(pace.threads(most));
-    done += work;
-    pace.done(work, 0.01);
+// A pace whose clocks stand still until told, and work of a hundredth of a second after the other.
+class Driver {
+ public:
+  /// rate: work a second on so many threads; share: of a core that the first of them has. Returns the work done.
+  template <class Rate, class Share>
+  double work(int most, double seconds, Rate rate, Share share) {
+    double done = 0;
+    for (int i = 0; i < std::lround(100 * seconds); ++i) {
+      const int threads = pace_.begin(most);
+      now_->wall += 0.01;
+      now_->thread += 0.01 * share(threads);
+      pace_.done(0.01 * rate(threads));
+      done += 0.01 * rate(threads);
+    }
+    return done;
   }
-  return done / (best * seconds);
-}
+  template <class Rate>
+  double work(int most, double seconds, Rate rate) {
+    return work(most, seconds, rate, [](int) { return 1.0; });
+  }
+  int threads(int most) { return pace_.threads(most); }
+
+ private:
+  struct Now {
+    double wall = 0, thread = 0;
+  };
+  std::shared_ptr<Now> now_ = std::make_shared<Now>();
+  Pace pace_{{.wall = [n = now_] { return n->wall; }, .thread = [n = now_] { return n->thread; }}};
+};
 
 }  // namespace
 
@@ -60,49 +74,72 @@ TEST_CASE("as many threads are taken as are of use") {
   const auto idle = [](int n) { return 1 + 0.8 * (n - 1); };
   const auto busy = [](int n) { return n == 1 ? 1.0 : 0.2; };
   const auto few = [](int n) { return n <= 4 ? n : 12.0 / n; };
-  Pace pace;
-  CHECK(pace.threads(2) == 2);  // until something else was seen to be faster
-  CHECK(taken(pace, 2, 5, busy) == 1);
-  CHECK(taken(pace, 2, 120, idle) == 2);  // the others have gone
-  Pace of_many;
-  CHECK(taken(of_many, 16, 60, few) == 4);
-  CHECK(of_many.threads(1) == 1);
-  CHECK(of_many.threads(8) == 8);  // another number to begin with
+  Driver two;
+  CHECK(two.threads(2) == 2);  // until something else was seen to be faster
+  two.work(2, 5, busy);
+  CHECK(two.threads(2) == 1);
+  two.work(2, 120, idle);
+  CHECK(two.threads(2) == 2);  // the others have gone
+  Driver many;
+  many.work(16, 60, few);
+  CHECK(many.threads(16) == 4);
+  CHECK(many.threads(1) == 1);
+  CHECK(many.threads(8) == 8);  // another number to begin with
 }
 
 TEST_CASE("looking for a better number of threads costs little") {
-  Pace idle, busy;
-  CHECK(share(
-            idle, 2, 20, [](int n) { return n == 1 ? 1.0 : 1.8; }, 1.8) > 0.985);
-  CHECK(share(
-            busy, 2, 20, [](int n) { return n == 1 ? 1.0 : 0.2; }, 1.0) > 0.95);
+  CHECK(Driver().work(2, 20, [](int n) { return n == 1 ? 1.0 : 1.8; }) > 0.985 * 1.8 * 20);
+  CHECK(Driver().work(2, 20, [](int n) { return n == 1 ? 1.0 : 0.2; }) > 0.95 * 20);
 }
 
 TEST_CASE("on a machine whose speed comes and goes the better number of threads is still found") {
   // Windows of the scheduler: each tenth of a second anything from 40 to 100 % of the speed.
-  const RandomStream seed(1, Purpose::test_data);
   for (const double two : {0.8, 1.25}) {
-    RandomStream random = seed;
-    double speed = 1, time = 0;
-    Pace pace;
-    const double made = share(
-        pace, 2, 60,
-        [&](int n) {
-          if ((time += 0.01) > 0.0995) time = 0, speed = random.uniform(0.4, 1);
-          return speed * (n == 1 ? 1 : two);
-        },
-        0.7 * std::max(1.0, two));
+    RandomStream random(1, Purpose::test_data);
+    double speed = 1;
+    int turn = 0;
+    Driver driver;
+    const double made = driver.work(2, 60, [&](int n) {
+      if (turn++ % 20 == 0) speed = random.uniform(0.4, 1);  // asked twice a stretch
+      return speed * (n == 1 ? 1 : two);
+    });
     CAPTURE(two);
-    CHECK(made > 0.93);  // of what the better number makes at the mean speed
-    CHECK(pace.threads(2) == (two > 1 ? 2 : 1));
+    CHECK(made > 0.93 * 0.7 * 60 * std::max(1.0, two));  // of what the better number makes at the mean speed
+    CHECK(driver.threads(2) == (two > 1 ? 2 : 1));
   }
 }
 
+TEST_CASE("where other processes keep the cores busy, threads do not wait for each other") {
+  // Two neighbours on two cores: one thread has two thirds of a core; of two the first mostly waits for the other.
+  Driver driver;
+  const auto busy = [](int n) { return n == 1 ? 1 : 0.1; };
+  const auto alone = [](int n) { return n == 1 ? 0.67 : 0.1; };
+  CHECK(driver.work(2, 20, busy, alone) > 0.99 * 20);
+  CHECK(driver.threads(2) == 1);
+  CHECK(driver.work(2, 5, [](int n) { return n == 1 ? 1 : 1.6; }) > 1.4 * 5);  // they have gone
+  CHECK(driver.threads(2) == 2);
+  CHECK(driver.work(2, 20, busy, alone) > 0.99 * 20);
+  // One that has a core to itself now and then looks for more, ever more seldom.
+  int turn = 0;
+  const auto now_and_then = [&](int n) { return n == 2 ? 0.1 : ++turn % 50 < 15 ? 1 : 0.6; };
+  CHECK(driver.work(2, 60, busy, now_and_then) > 0.98 * 60);
+}
+
+TEST_CASE("the clock of a thread stands while it sleeps") {
+  using namespace std::chrono_literals;
+  const Clocks clocks = system_clocks();
+  const double wall = clocks.wall(), thread = clocks.thread();
+  volatile double sum = 0;
+  while (clocks.thread() - thread < 0.02) sum = sum + 1;
+  CHECK(clocks.wall() - wall >= 0.0199);
+  const double before = clocks.wall(), computed = clocks.thread();
+  std::this_thread::sleep_for(30ms);
+  CHECK(clocks.wall() - before >= 0.03);
+  CHECK(clocks.thread() - computed < 0.015);
+}
+
 TEST_CASE("stretches without work are not taken for slow ones") {
-  Pace pace;
-  for (int i = 0; i < 1000; ++i) {
-    (void)pace.threads(2);
-    pace.done(0, 0.01);
-  }
-  CHECK(pace.threads(2) == 2);
+  Driver driver;
+  driver.work(2, 10, [](int) { return 0.0; });
+  CHECK(driver.threads(2) == 2);
 }

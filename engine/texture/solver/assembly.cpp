@@ -4,7 +4,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "engine/core/threads.h"
 #include "engine/texture/solver/forces.h"
@@ -59,11 +58,9 @@ Sample Assembly::advance(std::int64_t steps) {
   // In short stretches, between which the number of threads may change: the bits do not depend on it.
   for (std::int64_t left = steps; left > 0;) {
     const std::int64_t stretch = threads_ > 1 ? std::min(left, look_interval) : left;
-    const auto start = std::chrono::steady_clock::now();
     left -= stretch;
-    run(stretch, left == 0, pace_.threads(threads_));
-    pace_.done(static_cast<double>(stretch),
-               std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    run(stretch, left == 0, pace_.begin(threads_));
+    pace_.done(static_cast<double>(stretch));
   }
   const Sample taken = sample();
   for (Block& block : blocks_) {
