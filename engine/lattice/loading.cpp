@@ -159,12 +159,13 @@ std::vector<ElasticPoint> elastic_at_rest(const Block& block, Setup setup, const
   const double area = cross_section(block, setup.axis);
   // Displacements along the way are path dependent through the rotation of the shear springs: no step above 2e-5.
   constexpr double largest_step = 2e-5;
+  constexpr int most_tries = 8;  // of one strain of the list
   std::vector<ElasticPoint> points;
   int restless = 0;
   double reached = 0, yield = 1;  // strain of the block per strain between the planes
   for (const double target : strains) {
     const int parts = std::max(1, static_cast<int>(std::ceil((target - reached) / largest_step)));
-    for (int part = 1; part <= parts; ++part) {
+    for (int part = 1, tries = 0; part <= parts;) {
       const double to = reached + (target - reached) * part / parts;
       const double motion = 0.5 * length * (to + solver.strain()) / yield;
       const double before = solver.strain();
@@ -180,10 +181,13 @@ std::vector<ElasticPoint> elastic_at_rest(const Block& block, Setup setup, const
       }
       if (!rests) ++restless;
       yield *= (before - s.strain) / (to + before);
+      // How much of it the springs at the planes take is known after the first motion only.
+      if (rests && std::abs(to + s.strain) > 0.01 * to && ++tries < most_tries) continue;
       if (part == parts) {
         points.push_back(point_of(s, area));
         points.back().restless = restless;
       }
+      ++part;
     }
     reached = target;
   }

@@ -93,7 +93,7 @@ struct ElasticPoint {
   int restless = 0;            ///< times on the way to it that the search for rest was given up
 };
 
-/// Compresses the block to about each of the strains (positive, rising) and lets it come to rest there: time steps at
+/// Compresses the block to within 1 % of each of the strains (positive, rising) and lets it come to rest there: time steps at
 /// half the stable limit and twice the viscosity, until the kinetic energy is below 1e-18 of the elastic, or the search is
 /// given up (ElasticPoint::restless). Bonds do not break.
 /// `tick` hears of the share done and may throw.

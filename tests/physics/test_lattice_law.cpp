@@ -136,6 +136,19 @@ TEST_CASE("a single unit has the rock's E and nu at strain 1e-6, and leaves them
   CHECK(error(2) > 5 * error(1));
 }
 
+TEST_CASE("strains at rest are those that were asked for, however much the springs at the planes take") {
+  const std::vector<double> strains = {1e-6, 1e-4};
+  for (const int elements : {2, 4}) {
+    const Block block = make_block(block_shape(elements), 1e-3);
+    const auto points = elastic_at_rest(block, setup_for(block, PlaneKind::elastic), strains);
+    for (std::size_t i = 0; i < strains.size(); ++i) {
+      CAPTURE(elements);
+      CHECK(-points[i].strain == test::near(strains[i]).epsilon(0.01));
+      CHECK(-points[i].between_planes > 1.1 * strains[i]);
+    }
+  }
+}
+
 TEST_CASE("a single unit fails at Tu, opens at C_open and slides near Cu") {
   const Block block = make_block(block_shape(2), 1e-3);
   Loading loading;
