@@ -135,7 +135,7 @@ Test bending(double depth, double width, double notch, double particle) {
       .ending = {.stop = 0.7, .largest_strain = 0.02, .most_steps = 10000000},
       .typical_strain = 1e-3,
       .strength = notch > 0 ? Quantity{} : quantity::modulus_of_rupture,
-      .rate_sensitivity = 1.0,
+      .rate_sensitivity = 1.8,
       .stretched = false,
       .read_off = read_off,
   };

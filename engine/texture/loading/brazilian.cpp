@@ -121,7 +121,7 @@ Test brazilian(double diameter, double thickness, double jaw_ratio) {
       .ending = {.stop = 0.97, .largest_strain = 0.02, .most_steps = 10000000},
       .typical_strain = 1e-3,
       .strength = quantity::brazilian_strength,
-      .rate_sensitivity = 1.0,
+      .rate_sensitivity = 6.0,
       .stretched = false,
       .read_off = read_off,
   };

@@ -28,6 +28,11 @@ double axial_stiffness(const std::vector<HistoryRow>& h, std::size_t row) {
                         : std::numeric_limits<double>::quiet_NaN();
 }
 
+double kinetic_share(const Characteristics& c, double length, double mass) {
+  const double speed = 0.5 * length * c.strain_rate;
+  return c.elastic_energy > 0 ? mass * speed * speed / 6 / c.elastic_energy : 0;
+}
+
 double rate_bias(double kinetic_share, double sensitivity, bool of_modulus) {
   constexpr double modulus = 30;  // falls with the energy, strengths with the speed
   return std::max(sensitivity * std::sqrt(kinetic_share), of_modulus ? modulus * kinetic_share : 0);
@@ -68,12 +73,12 @@ Characteristics characterise(const std::vector<HistoryRow>& h, double departure,
     c.gauge_share = moved / (h[high].platen_strain - h[low].platen_strain);
     if (xx > 0 && std::abs(std::log2(c.gauge_share)) < most_octaves) c.young_modulus = xy / xx;
   }
-  double kinetic = 0, elastic = 0;
+  double way = 0;
   for (std::size_t i = low; i <= half; ++i) {
-    kinetic += h[i].ledger.kinetic;
-    elastic += h[i].ledger.elastic;
+    c.elastic_energy += h[i].ledger.elastic / static_cast<double>(half - low + 1);
+    if (i > low) way += std::abs(h[i].platen_strain - h[i - 1].platen_strain);
   }
-  if (elastic > 0) c.kinetic_share = kinetic / elastic;
+  if (h[half].time > h[low].time) c.strain_rate = way / (h[half].time - h[low].time);
   if (!crack_stages) return c;
   const bool gauge_still = high > low + 1 && !c.young_modulus;
   if (half > 0 && h[half].axial_strain > 0 && !gauge_still)

@@ -13,8 +13,8 @@ struct Characteristics {
   std::size_t peak = 0;                 ///< row of the largest stress
   std::optional<double> young_modulus;  ///< least squares between 10 and 30 % of the peak
   double gauge_share = 1;               ///< strain of the gauge over that of the ends there
-  /// Kinetic over elastic energy, both summed over the samples from 10 to 50 % of the peak.
-  double kinetic_share = 0;
+  double strain_rate = 0;               ///< of the ends, forth and back, from 10 to 50 % of the peak, 1/s
+  double elastic_energy = 0;            ///< mean of the samples there, J
   // Stages of cracking, for tests that have them (Test::crack_stages).
   std::optional<double> poisson_ratio;              ///< secant at half the peak
   std::optional<std::size_t> initiation_stiffness;  ///< row: axial stiffness leaves its early plateau
@@ -28,6 +28,11 @@ struct Characteristics {
 /// the peak are counted from the confining pressure (Pa), where the test starts.
 Characteristics characterise(const std::vector<HistoryRow>& history, double departure, bool crack_stages,
                              double confining_pressure = 0);
+
+/// Kinetic energy that the motion of the ends alone gives a body of that length (m) and mass (kg), as it is strained
+/// evenly, over its elastic energy. The measured one is about as large in tension and compression, and follows the rate;
+/// where cracks shake the body, or a chip flies off a disc, it does not.
+double kinetic_share(const Characteristics& c, double length, double mass);
 
 /// Share by which a test is loaded too fast: about so much are its strength too large and its modulus too small.
 /// `sensitivity` is that of the strength (Test::rate_sensitivity). Calibrated in docs/notes/loading-rate.md.

@@ -141,7 +141,7 @@ Test compression(double confining_pressure) {
       .ending = {.stop = 0.8, .strain_limit = 3, .largest_strain = 0.1, .most_steps = 10000000},
       .typical_strain = 4.5e-3,
       .strength = quantity::compressive_strength,
-      .rate_sensitivity = 6.0,
+      .rate_sensitivity = 4.5,
       .crack_stages = true,
   };
 }

@@ -170,7 +170,7 @@ Test direct_shear(double edge, double normal_stress) {
       .ending = {.stop = 0.8, .strain_limit = 3, .follow = 5, .largest_strain = 0.1, .most_steps = 10000000},
       .typical_strain = 8e-3,
       .strength = quantity::shear_strength,
-      .rate_sensitivity = 6.0,
+      .rate_sensitivity = 1.3,
       .stretched = false,
       .read_off = read_off,
   };

@@ -105,7 +105,7 @@ Test semicircular_bending(double diameter, double thickness, double notch, doubl
       .sample_strain = 1e-6,
       .ending = {.stop = 0.7, .largest_strain = 0.02, .most_steps = 10000000},
       .typical_strain = 1e-3,
-      .rate_sensitivity = 1.0,
+      .rate_sensitivity = 1.8,
       .stretched = false,
       .read_off = read_off,
   };

@@ -107,7 +107,7 @@ Test unloading_loops() {
       .ending = {.stop = 0.5, .largest_strain = 0.05, .most_steps = 10000000},
       .typical_strain = 4.5e-3,
       .strength = quantity::compressive_strength,
-      .rate_sensitivity = 6.0,
+      .rate_sensitivity = 4.5,
       .read_off = read_off,
   };
 }
