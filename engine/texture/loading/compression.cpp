@@ -60,7 +60,15 @@ std::vector<Key> keys() {
        .standard = "\"0 MPa\"",
        .affects = Affects::test,
        .when = {"compression"},
-       .help = "sigma_3 on a frictionless cylindrical wall; the test starts from this isotropic pressure"},
+       .help = "sigma_3 on the sides (compression.jacket); the test starts from this isotropic pressure"},
+      {.path = "compression.jacket",
+       .type = KeyType::text,
+       .choices = {"rigid", "membrane"},
+       .standard = "\"rigid\"",
+       .affects = Affects::test,
+       .when = {"compression"},
+       .help = "what carries the confining pressure: a frictionless rigid cylinder that keeps its mean, or a membrane: "
+               "the pressure on each particle at the side"},
       {.path = "compression.confining_step",
        .unit = "kPa",
        .low = 1e-3,
@@ -109,6 +117,7 @@ Test read(const Scenario& scenario) {
   Test test = compression(scenario.real("compression.confining_pressure"));
   read_pace(scenario, "compression.", test);
   test.confining_step = scenario.real("compression.confining_step");
+  test.membrane = scenario.text("compression.jacket") == "membrane";
   test.ending.strain_limit = scenario.real("compression.strain_limit");
   test.ending.follow = scenario.real("compression.follow");
   return test;

@@ -131,6 +131,7 @@ AssemblyInput assembly_input(const Specimen& specimen, const Settings& settings)
   input.slides = settings.test.motion == Axis::x;
   const Test& test = settings.test;
   if (test.confining_pressure > 0) input.jacket_radius = settings.packing.vessel.diameter / 2;
+  input.membrane = test.membrane;
   input.platens = test.hold == Hold::platens;
   input.faces = test.faces;
   if (test.hold == Hold::grips) {

@@ -83,6 +83,7 @@ struct Test {
   std::int8_t (*gripped)(const Test&, const Body&, const Vec3& at) = nullptr;
   double normal_stress = 0;          ///< Pa, on the upper of two grips that move along x
   double confining_pressure = 0;     ///< Pa; 0: no jacket
+  bool membrane = false;             ///< flexible: no rigid cylinder (solver/walls.h)
   double confining_step = 0;         ///< Pa a step, while the confining pressure or the normal stress is raised
   std::optional<Stage> before = {};  ///< none: the test begins at once
 

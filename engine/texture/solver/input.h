@@ -40,6 +40,7 @@ struct AssemblyInput {
   std::array<std::vector<Face>, 2> faces;  ///< of the lower and the upper one; empty: a plane each
   double z_low = 0, z_high = 0;            ///< m; lower and upper platen (or grip face)
   double jacket_radius = 0;       ///< m; frictionless cylindrical wall round the z axis, for confine(); 0: none
+  bool membrane = false;          ///< its pressure is carried by a flexible membrane, not by a rigid cylinder
   double damping = 0.7;           ///< alpha
   double time_step_factor = 0.8;  ///< of the critical step from the stiffness sums
   int slabs = 0;                  ///< 0: chosen

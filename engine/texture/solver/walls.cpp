@@ -10,6 +10,7 @@ namespace dem::texture {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr double outside = 0.5;  // of its radius: the gap to the cylinder up to which a particle is at the side
 constexpr double bed = 0.5;  // thickness of what a strip is bedded in, over the radius of the particle that it bears on
 
 // One step towards a target.
@@ -37,6 +38,7 @@ Walls::Walls(const AssemblyInput& input, const Slabs& slabs)
       modulus_(input.wall_modulus),
       platen_contacts_(slabs.count()),
       jacket_contacts_(slabs.count()),
+      membrane_(slabs.count()),
       sums_(slabs.count()) {
   for (std::vector<Face>& faces : faces_) {
     if (faces.empty()) faces.emplace_back();
@@ -44,6 +46,7 @@ Walls::Walls(const AssemblyInput& input, const Slabs& slabs)
   ends_[0].z = ends_[0].z_before = input.z_low;
   ends_[1].z = ends_[1].z_before = input.z_high;
   jacket_.radius = jacket_.radius_before = input.jacket_radius;
+  if (input.membrane && input.jacket_radius > 0) lay_membrane(input, slabs);
   if (!input.grip.empty()) {
     held_.resize(slabs.count());
     for (std::size_t i = 0; i < input.grip.size(); ++i) {
@@ -57,6 +60,22 @@ Walls::Walls(const AssemblyInput& input, const Slabs& slabs)
          true);
   }
   check_strips();
+}
+
+void Walls::lay_membrane(const AssemblyInput& input, const Slabs& slabs) {
+  membrane_radius_ = input.jacket_radius;
+  membrane_height_ = input.z_high - input.z_low;
+  membrane_area_ = 2 * pi * membrane_radius_ * membrane_height_;
+  double squares = 0;
+  for (std::size_t i = 0; i < input.position.size(); ++i) {
+    const double r = input.radius[i], away = std::hypot(input.position[i][0], input.position[i][1]);
+    if (jacket_gap(membrane_radius_, away, r) > outside * r) continue;
+    membrane_[slabs.of_particle(i)].push_back({static_cast<std::int32_t>(i), r * r, away, away, 0});
+    squares += r * r;
+  }
+  for (auto& slab : membrane_) {
+    for (MembraneShare& share : slab) share.area *= membrane_area_ / squares;
+  }
 }
 
 // A strip that bears on nothing would let the specimen fall.
@@ -99,7 +118,11 @@ void Walls::press(double force, std::int64_t ramp) {
 void Walls::press(std::size_t slab, Particles& particles) {
   if (!platens_) return;
   press_platens(slab, particles);
-  press_jacket(slab, particles);
+  if (membrane_area_ > 0) {
+    press_membrane(slab, particles);
+  } else {
+    press_jacket(slab, particles);
+  }
 }
 
 // Of the face of an end, before the gap at rest.
@@ -157,6 +180,25 @@ void Walls::press_jacket(std::size_t slab, Particles& particles) {
   sums.elastic = elastic;
 }
 
+void Walls::press_membrane(std::size_t slab, Particles& particles) {
+  SlabSums& sums = sums_[slab];
+  sums.jacket_force = sums.bulge = 0;
+  const double stretch = (ends_[1].z - ends_[0].z) / membrane_height_;
+  for (MembraneShare& share : membrane_[slab]) {
+    const auto p = static_cast<std::size_t>(share.particle);
+    const Row8& pose = particles.pose[p];
+    const double x = pose.v[0], y = pose.v[1], away = std::sqrt(x * x + y * y), wide = share.area * away / share.away;
+    const double force = jacket_.pressure * wide * stretch;
+    particles.force[p].v[0] -= force * x / away;
+    particles.force[p].v[1] -= force * y / away;
+    sums.jacket_force += force;
+    sums.bulge += wide;
+    sums.work -= 0.5 * (force + share.force_before) * (away - share.away_before);
+    share.away_before = away;
+    share.force_before = force;
+  }
+}
+
 void Walls::move(double step) {
   double jacket_force = 0, jacket_stiffness = 0;
   std::array<double, 2> force{}, stiffness{};
@@ -193,7 +235,11 @@ void Walls::move(double step) {
     lift_.z += lift_.speed * step;
   }
   jacket_.radius_before = radius;
-  if (radius > 0) {
+  if (membrane_area_ > 0) {
+    double bulge = 0;
+    for (const SlabSums& sums : sums_) bulge += sums.bulge;
+    jacket_.radius = jacket_.radius_before = membrane_radius_ * bulge / membrane_area_;  // of this step already
+  } else if (radius > 0) {
     // What the particles alone did to the force in the last step, they will do again in the next.
     const double moved = jacket_force - jacket_.force_before + jacket_stiffness * jacket_.drift;
     const double excess = jacket_force + moved - jacket_.pressure * 2 * pi * radius * height;
@@ -259,7 +305,7 @@ void Walls::meet(const Near& sphere, double reach, bool first) {
       if (first) ends_[static_cast<std::size_t>(upper)].stiffness += k;
     }
   }
-  if (jacket_.radius > 0) {
+  if (jacket_.radius > 0 && membrane_area_ == 0) {
     std::vector<JacketContact>& contacts = jacket_contacts_[sphere.slab];
     const auto particle = static_cast<std::int32_t>(sphere.particle);
     const auto same = [&](const JacketContact& c) { return c.particle == particle; };

@@ -5,6 +5,10 @@
 // cylinder round the z axis (laws/wall_contact.h). Walls
 // that carry a pressure have no mass: at each step each of them goes to where its contacts carry the pressure, by one
 // Newton step from the forces of the step before; the jacket foresees that particles go on pushing as they did.
+// A membrane in the place of the rigid jacket: each particle at the side of the specimen has a share of its surface, in
+// proportion to the square of its radius, that grows with its distance from the axis and the height of the specimen. The
+// pressure on that share pushes the particle towards the axis, wherever it goes. So the specimen may bulge; what breaks off
+// behind these particles meets no wall.
 // Particles in a grip follow it without turning. Grips move along z, or along x (AssemblyInput::slides): then the upper is a
 // rigid body, with the mass of its particles and their local damping, that a normal force presses down.
 //
@@ -53,7 +57,7 @@ class Walls {
 
   template <class Archive>
   void archive(Archive& a) {
-    a(ends_, jacket_, lift_, platen_contacts_, jacket_contacts_, sums_);
+    a(ends_, jacket_, lift_, platen_contacts_, jacket_contacts_, membrane_, sums_);
   }
 
  private:
@@ -86,6 +90,11 @@ class Walls {
     std::int32_t particle = 0;
     WallContact law;
   };
+  struct MembraneShare {
+    std::int32_t particle = 0;
+    double area = 0, away = 0;                 ///< m^2, m from the axis: at installation
+    double away_before = 0, force_before = 0;  ///< m, N: of the step before
+  };
   struct Held {
     std::int32_t particle = 0;
     std::int32_t upper = 0;
@@ -96,7 +105,8 @@ class Walls {
     std::array<double, 2> stiffness{};              ///< of the platen contacts that bear, N/m
     double lift = 0, lift_before = 0;               ///< force of an upper grip that slides on the specimen, along z, N
     double jacket_force = 0, jacket_force_before = 0, jacket_stiffness = 0;  ///< sums over radial forces
-    double work = 0, elastic = 0;                                            ///< J; work since the beginning
+    double bulge = 0;              ///< shares of a membrane, each times its growth away from the axis, m^2
+    double work = 0, elastic = 0;  ///< J; work since the beginning
   };
 
   /// A sphere of a slab, as a wall meets it.
@@ -114,10 +124,13 @@ class Walls {
   [[nodiscard]] JawGap gap_of(std::int32_t upper, const Face& face, const Vec3& at, double radius) const;
   void press_platens(std::size_t slab, Particles& particles);
   void press_jacket(std::size_t slab, Particles& particles);
+  void press_membrane(std::size_t slab, Particles& particles);
+  void lay_membrane(const AssemblyInput& input, const Slabs& slabs);
 
   // fixed after installation
   bool platens_ = false, slides_ = false;
   double damping_ = 0;
+  double membrane_area_ = 0, membrane_radius_ = 0, membrane_height_ = 0;  ///< m^2, m, m at installation; 0: none
   std::array<std::vector<Face>, 2> faces_{};
   std::vector<double> modulus_;          ///< E_c of each mineral, Pa
   std::vector<std::vector<Held>> held_;  ///< by slab; empty without grips
@@ -128,6 +141,7 @@ class Walls {
   Lift lift_;
   std::vector<std::vector<PlatenContact>> platen_contacts_;  ///< by slab
   std::vector<std::vector<JacketContact>> jacket_contacts_;  ///< by slab
+  std::vector<std::vector<MembraneShare>> membrane_;         ///< by slab
   std::vector<SlabSums> sums_;
 };
 
