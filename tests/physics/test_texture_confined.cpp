@@ -87,7 +87,8 @@ TEST_CASE("an isotropic pressure strains a specimen alike in all directions") {
 }
 
 TEST_CASE("a confined test that is cut goes on to the same bits") {
-  for (const auto& [while_confining, membrane] : {std::pair{true, false}, {false, false}, {true, true}, {false, true}}) {
+  for (const auto& [while_confining, membrane] :
+       {std::pair{true, false}, {false, false}, {true, true}, {false, true}}) {
     CAPTURE(while_confining);
     CAPTURE(membrane);
     const Settings settings = confined(10e6, membrane);
