@@ -10,7 +10,7 @@ namespace reports {
 
 /// How high a picture is printed at most, mm, where as many stand beside each other: with what stands below it, a row leaves
 /// no page a third empty.
-constexpr double highest_picture(int per_row) { return per_row == 1 ? 52 : 64; }
+constexpr double highest_picture(int per_row) { return per_row <= 2 ? 54 : 64; }
 
 /// A bar below a picture that tells its scale.
 struct ScaleBar {
