@@ -120,7 +120,8 @@ std::vector<bool> number_columns(const TextTable& table) {
 }
 
 void set_table(PageData& data, const TextTable& table) {
-  constexpr std::size_t brief = 26;  // bytes of a name that stays in one line
+  // Bytes of a name that stays in one line.
+  const std::size_t brief = table.head.size() > 9 ? 16 : 26;
   const std::vector<bool> numbers = number_columns(table);
   PageData head = new_list();
   for (std::size_t i = 0; i < table.head.size(); ++i) {
