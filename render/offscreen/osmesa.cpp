@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/core/errors.h"
+#include "engine/core/limits.h"
 #include "render/offscreen/window.h"
 
 namespace render {
@@ -19,6 +20,13 @@ void check_driver() {
   throw dem::EnvironmentError("pictures cannot be drawn: the environment variable GALLIUM_DRIVER is '" +
                               std::string(driver) +
                               "', and OSMesa, which draws them, has llvmpipe and softpipe; unset it");
+}
+
+// A limit on memory is the likelier reason: a process that has come so far has a library that loads.
+std::string reason() {
+  if (!environment_settings().empty()) return environment_settings();
+  const std::string limit = dem::memory_limit();
+  return limit.empty() ? "; install the package libosmesa6 again" : ", which gets no memory: " + limit;
 }
 
 }  // namespace
@@ -46,9 +54,7 @@ struct Offscreen::Context {
     constexpr int side = 64;
     pixels.resize(4 * side * side);
     if (handle == nullptr || OSMesaMakeCurrent(handle, pixels.data(), GL_UNSIGNED_BYTE, side, side) == GL_FALSE)
-      throw dem::EnvironmentError(
-          "no off-screen OpenGL 3.3 context from OSMesa, Mesa's software renderer" +
-          (environment_settings().empty() ? "; install the package libosmesa6 again" : environment_settings()));
+      throw dem::EnvironmentError("no off-screen OpenGL 3.3 context from OSMesa, Mesa's software renderer" + reason());
   }
   ~Context() {
     if (handle != nullptr) OSMesaDestroyContext(handle);

@@ -2,7 +2,6 @@
 
 #include <sys/mman.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -24,6 +23,7 @@
 #include <thread>
 
 #include "engine/core/errors.h"
+#include "engine/core/limits.h"
 #include "engine/model/model.h"
 #include "reports/output/child.h"
 
@@ -161,11 +161,9 @@ class Children {
 
 // Graphics libraries do not ask whether they were given the memory that they wanted.
 std::string hint_at_memory(int number) {
-  rlimit limit{};
-  const bool limited = ::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
-  if (!limited || (number != SIGSEGV && number != SIGBUS && number != SIGABRT)) return {};
-  return ", as graphics libraries are that run out of memory: at most " + std::to_string(limit.rlim_cur >> 20) +
-         " MiB are allowed here (ulimit -v)";
+  const std::string limit = dem::memory_limit();
+  if (limit.empty() || (number != SIGSEGV && number != SIGBUS && number != SIGABRT)) return {};
+  return ", as graphics libraries are that run out of memory: " + limit;
 }
 
 std::string ending_of(int status) {
