@@ -281,7 +281,8 @@ std::string log_line(const std::string& study, const Acceptance& acceptance, con
                      const std::string& hash) {
   Json items = Json::array();
   for (const Item& item : accepted.changed) {
-    Json one{{"what", item.id}, {"state", state_words(item.state)}};
+    Json one{{"what", item.id}};
+    if (item.state != State::beyond) one["state"] = state_words(item.state);  // most are beyond tolerance
     if (!item.was.empty()) one["old"] = item.was;
     if (!item.is.empty()) one["new"] = item.is;
     if (!item.difference.empty()) one["difference"] = item.difference;
