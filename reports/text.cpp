@@ -74,6 +74,8 @@ std::string shortest(double value) { return dressed(fmt::format("{:.9g}", value)
 
 std::string count(double value) { return fixed(value, 0); }
 
+std::string seeds_text(std::size_t seeds) { return seeds == 1 ? "one seed" : fmt::format("{} seeds", seeds); }
+
 std::string listed(const std::vector<std::string>& items) {
   std::string text;
   for (std::size_t i = 0; i < items.size(); ++i) {

@@ -30,6 +30,9 @@ std::string shortest(double value);
 /// A count with thin spaces: "36 528".
 std::string count(double value);
 
+/// "one seed", "3 seeds".
+std::string seeds_text(std::size_t seeds);
+
 /// "a, b and c".
 std::string listed(const std::vector<std::string>& items);
 std::string joined(const std::vector<std::string>& items, std::string_view between);

@@ -129,6 +129,15 @@ Estimate mean_of(std::span<const double> values) {
   return with_error(known.mean, known.deviation / std::sqrt(count), count - 1);
 }
 
+Trend paired_trend(std::span<const double> slopes) {
+  Trend all{mean_of(slopes), none, slopes.size()};
+  if (!all.slope.has_interval()) return all;
+  const auto [mean, deviation, count] = spread(slopes);
+  const auto n = static_cast<double>(count);
+  all.p_value = deviation > 0 ? student_two_sided(mean / (deviation / std::sqrt(n)), n - 1) : mean == 0 ? 1 : 0;
+  return all;
+}
+
 Estimate ratio_of_means(std::span<const double> a, std::span<const double> b) {
   const Spread one = spread(a), two = spread(b);
   const double ratio = one.mean / two.mean;

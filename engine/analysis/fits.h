@@ -29,6 +29,15 @@ struct LineFit {
   [[nodiscard]] double at(double x) const { return intercept.value + slope.value * x; }
 };
 
+/// Slopes of seeds: cases of one seed share a specimen's packing, so that each seed gives one, and it is these that scatter.
+struct Trend {
+  Estimate slope;
+  double p_value = 0;  ///< against none, two-sided; NaN without an interval
+  std::size_t seeds = 0;
+  [[nodiscard]] bool is_clear() const { return slope.has_interval() && (slope.low > 0 || slope.high < 0); }
+};
+Trend paired_trend(std::span<const double> slopes);
+
 /// Nothing with fewer than two different x.
 std::optional<LineFit> fit_line(std::span<const double> x, std::span<const double> y);
 

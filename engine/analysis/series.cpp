@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 namespace dem::analysis {
 
@@ -37,17 +38,28 @@ Spread spread(const Point& point, const ValueOf& value) {
   return spread(values);
 }
 
-std::optional<LineFit> trend(std::span<const Point> points, const ValueOf& value) {
-  std::vector<double> x, y;
+std::optional<Trend> trend(std::span<const Point> points, const ValueOf& value) {
+  std::map<std::uint64_t, std::pair<std::vector<double>, std::vector<double>>> of_seed;  // x and y
+  std::vector<double> steps;
   for (const Point& point : points) {
+    bool some = false;
     for (const Record* record : point.repeats) {
       const double v = value(*record);
       if (!std::isfinite(v)) continue;
+      auto& [x, y] = of_seed[record->seed];
       x.push_back(point.value);
       y.push_back(v);
+      some = true;
     }
+    if (some) steps.push_back(point.value);
   }
-  return fit_line(x, y);
+  std::vector<double> slopes;
+  for (const auto& [seed, line] : of_seed) {
+    if (line.first != steps) continue;
+    if (const auto fit = fit_line(line.first, line.second)) slopes.push_back(fit->slope.value);
+  }
+  if (slopes.empty()) return {};
+  return paired_trend(slopes);
 }
 
 }  // namespace dem::analysis

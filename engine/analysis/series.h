@@ -30,7 +30,7 @@ ValueOf shown(const Quantity& quantity);
 /// Over the repeats of a point.
 Spread spread(const Point& point, const ValueOf& value);
 
-/// The straight line through all points and repeats against the swept parameter.
-std::optional<LineFit> trend(std::span<const Point> points, const ValueOf& value);
+/// Against the swept parameter, over the seeds that have a value at every point; nothing with fewer than two points.
+std::optional<Trend> trend(std::span<const Point> points, const ValueOf& value);
 
 }  // namespace dem::analysis

@@ -89,7 +89,7 @@ inline constexpr Quantity along_compression_share{
     .meaning = "Share of the broken springs whose fracture runs along the compression; by chance a third."};
 inline constexpr Quantity across_extension_share{
     .id = "across_extension_share",
-    .name = "Trends within 30° of across the extension",
+    .name = "Trends within 30° of the normal to the extension",
     .shown = "%",
     .factor = 100,
     .tests = "extension",

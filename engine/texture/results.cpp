@@ -451,8 +451,8 @@ void add_test(Record& record, const Specimen& specimen, const Settings& settings
 
   record.checks.push_back({"energy_residual", residual, residual_limit, residual <= residual_limit,
                            "Largest residual of the energy account over the work W of the platens or grips, taken as "
-                           "at least 1 % of its largest value, over all samples. Limit: a sound test stays below a "
-                           "thousandth; a time step that is too long does not."});
+                           "at least 1 % of its largest value, over all samples. Limit: ten times what sound "
+                           "tests reach; a time step that is too long exceeds it."});
   if (loaded) {
     record.checks.push_back({"equilibrium", imbalance, imbalance_limit, imbalance <= imbalance_limit,
                              "Root mean square difference of the stresses at the two ends up to the peak, over the "

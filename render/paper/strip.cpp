@@ -81,7 +81,10 @@ void draw_bar(Paper& paper, const ColourBar& bar, double left, double right) {
     paper.rectangle({at, top, std::min(right, at + share + 0.4), bottom}, bar.colours[k]);
   }
   paper.frame({left, top, right, bottom}, {ink, 0.7, Line::solid});
-  paper.text(bar.title, {(left + right) / 2, 12}, {text, Anchor::middle, ink, false, false});
+  // In the middle of the bar, or as near to it as the picture lets it be whole.
+  const double half = text_width(bar.title, text) / 2, middle = (left + right) / 2;
+  const double at = std::max(half, std::min(middle, paper.width() - half));
+  paper.text(bar.title, {at, 12}, {text, Anchor::middle, ink, false, false});
   if (!(bar.high > bar.low)) return;
   const double step = round_step(bar.high - bar.low, right - left < 130 ? 3 : 6);
   for (double k = std::ceil(bar.low / step - 1e-9); k * step <= bar.high + 1e-9 * step; ++k) {

@@ -57,7 +57,7 @@ struct Camera {
 
 /// What colours that stand for values mean.
 struct ColourBar {
-  std::string title;  ///< with the unit: "Mean stress (10⁻³ k), tension positive"
+  std::string title;  ///< with the unit: "Mean stress (10⁻³ k)"
   double low = 0, high = 1;
   std::vector<Colour> colours;  ///< from low to high, in equal steps
 };

@@ -243,8 +243,8 @@ Picture map_of(const Emission& e, double largest) {
 
 TextTable table_of(const std::vector<Emission>& all) {
   TextTable table{{"Case", "Cracks", "Events", "Cracks of the largest event", "Energy of all events (mJ)",
-                   "Over the heat of breaking", "Window (mm)", "Window (µs)", "Largest magnitude", "Complete from M",
-                   "Events above", "b"},
+                   "Ratio to the heat of breaking", "Window (mm)", "Window (µs)", "Largest magnitude",
+                   "Complete from M", "Events above", "b"},
                   {}};
   for (const Emission& e : all) {
     std::size_t most = 0;

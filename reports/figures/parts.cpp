@@ -57,13 +57,13 @@ render::Series means(const std::vector<SeriesCase>& cases, const ValueOf& value)
   return series;
 }
 
-std::optional<analysis::LineFit> trend_of(const std::vector<SeriesCase>& cases, const ValueOf& value) {
+std::optional<analysis::Trend> trend_of(const std::vector<SeriesCase>& cases, const ValueOf& value) {
   return analysis::trend(points_of(cases), value);
 }
 
 namespace {
 
-std::string p_words(const analysis::LineFit& fit) {
+std::string p_words(const analysis::Trend& fit) {
   return fit.p_value < 0.001 ? "≤ 0.001" : "= " + number(fit.p_value, 2);
 }
 
@@ -80,8 +80,7 @@ void add_trends(FigureContent& content, const std::vector<Trend>& trends, const 
     table.rows.push_back({name, number(slope, 2),
                           known ? number(fit->slope.low, 2) + " to " + number(fit->slope.high, 2) : "–",
                           p.starts_with("= ") ? p.substr(2) : p});
-    const bool clear = known && fit->p_value <= 0.05;
-    (!clear ? unclear : slope < 0 ? falling : rising).push_back(name);
+    (!fit->is_clear() ? unclear : slope < 0 ? falling : rising).push_back(name);
   }
   if (table.rows.empty()) return;
   content.panels.push_back(
@@ -107,11 +106,12 @@ std::string trend_words(const std::vector<SeriesCase>& cases, const ValueOf& val
   const std::string of =
       (unit.empty() || unit == "°" ? std::string(unit) : " " + std::string(unit)) + " per " + std::string(axis.step);
   if (!fit->slope.has_interval()) {
-    return fmt::format("{} by {}{} between two points", slope < 0 ? "falls" : "rises", number(std::abs(slope), 2), of);
+    return fmt::format("{} by {}{} ({}: no interval)", slope < 0 ? "falls" : "rises", number(std::abs(slope), 2), of,
+                       seeds_text(fit->seeds));
   }
   const std::string interval =
       fmt::format("95 % interval {} to {}, p {}", number(fit->slope.low, 2), number(fit->slope.high, 2), p_words(*fit));
-  if (fit->p_value > 0.05) return fmt::format("shows no clear trend: slope {}{} ({})", number(slope, 2), of, interval);
+  if (!fit->is_clear()) return fmt::format("shows no clear trend: slope {}{} ({})", number(slope, 2), of, interval);
   return fmt::format("{} by {}{} ({})", slope < 0 ? "falls" : "rises", number(std::abs(slope), 2), of, interval);
 }
 

@@ -35,7 +35,7 @@ using analysis::ValueOf;
 render::Series means(const std::vector<SeriesCase>& cases, const ValueOf& value);
 
 /// The straight line through a value of all cases and repeats against the swept parameter.
-std::optional<analysis::LineFit> trend_of(const std::vector<SeriesCase>& cases, const ValueOf& value);
+std::optional<analysis::Trend> trend_of(const std::vector<SeriesCase>& cases, const ValueOf& value);
 /// "rises by 1.2 MPa per degree of dip (95 % interval 0.4 to 2, p = 0.01)", or that it shows no clear trend; "" with one case.
 std::string trend_words(const std::vector<SeriesCase>& cases, const ValueOf& value, std::string_view unit,
                         const dem::Parameter& axis);
@@ -45,7 +45,7 @@ std::vector<std::string> labels_of(const std::vector<SeriesCase>& cases);
 /// A straight line through a value, by the name of what it is of.
 struct Trend {
   std::string name;
-  std::optional<analysis::LineFit> fit;
+  std::optional<analysis::Trend> fit;
 };
 /// Which of them rise or fall, as a sentence of the finding, and their slopes with intervals as a table.
 void add_trends(FigureContent& content, const std::vector<Trend>& trends, const dem::Parameter& axis);

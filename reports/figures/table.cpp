@@ -67,7 +67,7 @@ std::span<const Figure> figures() {
        texture::input_parameters},
       {"texture_by_seed", "Texture by aspect ratio and seed", "Zhao et al. 2021, section 5 and Eq. 14", "grain_texture",
        texture::texture_by_seed},
-      {"readings", "What the open readings of the paper do", "Zhao et al. 2021, sections 2.3, 2.4 and 3.3",
+      {"readings", "How the paper’s open readings change the results", "Zhao et al. 2021, sections 2.3, 2.4 and 3.3",
        "grain_texture", texture::open_readings},
       {"brazilian_test", "The Brazilian test", "", "grain_texture", texture::brazilian_test},
       {"brazilian_strengths", "Tensile strength by two tests", "Perras & Diederichs 2014, Geotech Geol Eng 32:525–546",

@@ -31,7 +31,25 @@ Json asset(const std::filesystem::path& file) {
   }
 }
 
-/// Without those about the paper's rock, where another one is studied, and those about a test that the study does not have.
+/// A text with the values of the scenario's keys in the place of their names in braces.
+std::string filled(const dem::Scenario& scenario, std::string text) {
+  for (std::size_t at = 0; (at = text.find('{', at)) != std::string::npos;) {
+    const std::size_t end = text.find('}', at);
+    text.replace(at, end - at + 1, shortest(scenario.real(text.substr(at + 1, end - at - 1))));
+  }
+  return text;
+}
+
+/// Whether a case is under confining pressure.
+bool is_confined(const StudyResult& study) {
+  return std::ranges::any_of(study.cases, [](const CaseResult& one) {
+    const auto* pressure = dem::find_value(one.parameters, "confining_pressure");
+    return pressure && std::holds_alternative<double>(*pressure) && std::get<double>(*pressure) > 0;
+  });
+}
+
+/// Without those about the paper's rock, where another one is studied, and those about a test, a pressure or a key's value
+/// that the study does not have.
 Json about(const StudyResult& study, const Json& entries) {
   Json kept = Json::array();
   for (Json one : entries) {
@@ -44,6 +62,21 @@ Json about(const StudyResult& study, const Json& entries) {
     };
     if (!tests.empty() && std::ranges::none_of(tests, is_run)) continue;
     one.erase("test");
+    if (one.value("confined", false) && !is_confined(study)) continue;
+    one.erase("confined");
+    const Json when = one.value("when", Json::object());
+    if (std::ranges::any_of(when.items(), [&](const auto& key) {
+          return study.scenario->text(key.key()) != key.value().template get<std::string>();
+        })) {
+      continue;
+    }
+    one.erase("when");
+    const std::string more = one.value("of_the_rock", "");
+    one.erase("of_the_rock");
+    if (one.contains("text")) {
+      one["text"] = filled(*study.scenario, one["text"].get<std::string>()) +
+                    (study.of_a_paper && !more.empty() ? " " + more : "");
+    }
     kept.push_back(std::move(one));
   }
   return kept;

@@ -146,8 +146,7 @@ void set_table(PageData& data, const TextTable& table) {
     one.set("cells", values);
     rows.push_back(one);
   }
-  constexpr std::size_t few = 8;
-  data.set("short", table.rows.size() <= few);
+  data.set("short", is_short(table.rows.size()));
   data.set("table_head", head);
   data.set("table_rows", rows);
 }

@@ -196,6 +196,7 @@ PageData results_data(const StudyResult& study, bool diagnostics) {
       table.set("lettered", !key.empty());
       table.set("heads", cells(heads));
       table.set("rows", rows);
+      table.set("short", is_short(ids.size()));
       tables.push_back(table);
     }
   }

@@ -1,11 +1,15 @@
 #pragma once
 // Rows of tables as data for the template (assets/page/report.html).
+#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "reports/page/page_parts.h"
 
 namespace reports {
+
+/// Tables of so few rows stay whole in print.
+[[nodiscard]] inline bool is_short(std::size_t rows) { return rows <= 8; }
 
 [[nodiscard]] inline PageData new_list() { return PageData{PageData::type::list}; }
 

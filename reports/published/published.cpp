@@ -28,8 +28,6 @@ std::string interval_text(const analysis::Estimate& estimate, int digits = 3) {
   return fmt::format("95 % interval {} to {}", number(estimate.low, digits), number(estimate.high, digits));
 }
 
-std::string seeds_text(std::size_t seeds) { return seeds == 1 ? "one seed" : fmt::format("{} seeds", seeds); }
-
 Band band_of(const Comparison& row) {
   const auto* range = std::get_if<std::pair<double, double>>(&row.published);
   const auto [low, high] = range ? *range : std::pair(std::get<double>(row.published), std::get<double>(row.published));
@@ -73,18 +71,14 @@ struct Slope {
 
 // Cases of one seed share their packing, so that each seed gives one slope, and it is these that scatter.
 Slope paired_slope(const std::vector<double>& slopes) {
-  Slope all{analysis::mean_of(slopes), std::nan(""), {}};
+  const analysis::Trend trend = analysis::paired_trend(slopes);
+  Slope all{trend.slope, trend.p_value, {}};
   const std::string each = number(all.value.value, 2);
   if (!all.value.has_interval()) {
     all.words = fmt::format("slope {}; {}: no interval", each, seeds_text(slopes.size()));
     return all;
   }
-  const auto [mean, deviation, count] = analysis::spread(slopes);
-  const auto n = static_cast<double>(count);
-  all.p_value = deviation > 0 ? analysis::student_two_sided(mean / (deviation / std::sqrt(n)), n - 1)
-                : mean == 0   ? 1
-                              : 0;
-  all.words = fmt::format("slope {}, the mean of {} seeds ({}, p = {})", each, count, interval_text(all.value, 2),
+  all.words = fmt::format("slope {}, the mean of {} seeds ({}, p = {})", each, trend.seeds, interval_text(all.value, 2),
                           number(all.p_value, 2));
   return all;
 }

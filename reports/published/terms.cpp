@@ -121,8 +121,7 @@ analysis::Estimate Terms::fitted(const Json& term) const {
 const CaseResult& Terms::case_of(const Json& term, const dem::Parameters& at, std::optional<double> seed) const {
   const auto all = cases(term, at);
   const auto one = std::ranges::find_if(all, [&](const CaseResult* c) { return !seed || seed_of(*c) == seed; });
-  if (one == all.end())
-    throw NotComputed{"this scenario has no case: " + case_words(study_.parameters, named(term, at))};
+  if (one == all.end()) throw NotComputed{"not run at this scale: " + case_words(study_.parameters, named(term, at))};
   const CaseResult& result = **one;
   if (!result.record) throw NotComputed{"case " + result.id + (result.error.empty() ? " was not run" : " failed")};
   return result;

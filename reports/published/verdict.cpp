@@ -100,17 +100,17 @@ std::string tally_text(const Tally& counts, std::string_view scale) {
     say(counts.met, "met", counts.missed + counts.undecided > 0);
     say(counts.missed, "missed");
     say(counts.undecided, "undecided");
-    say(counts.not_judged, fmt::format("not judged (scale “{}”)", scale));
+    say(counts.not_judged, fmt::format("not judged (published at {} scale)", scale));
     say(counts.not_computed, "not computed");
     text = all == 1 ? fmt::format("Of one published number, {}.", listed(parts))
                     : fmt::format("Of {} published numbers and trends, {}.", all, listed(parts));
   }
   std::vector<std::string> apart;
-  if (counts.fitted > 0) apart.push_back(fmt::format("{} to which a choice was fitted", counts.fitted));
+  if (counts.fitted > 0) apart.push_back(fmt::format("{} that a choice was fitted to", counts.fitted));
   if (counts.theory > 0) {
     apart.push_back(fmt::format("{} that compare{} theory with theory", counts.theory, counts.theory == 1 ? "s" : ""));
   }
-  if (!apart.empty()) text += (text.empty() ? "Counted apart: " : " Counted apart: ") + listed(apart) + ".";
+  if (!apart.empty()) text += (text.empty() ? "Counted separately: " : " Counted separately: ") + listed(apart) + ".";
   return text;
 }
 

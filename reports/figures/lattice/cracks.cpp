@@ -284,9 +284,10 @@ FigureContent crack_front(const StudyResult& study) {
   }
   if (said.empty()) return content;
   content.finding = sentence(said);
-  content.finding +=
-      fmt::format(" Longitudinal waves of the rock run at {} m/s: a faster front is many cracks at once.",
-                  number(wave_speed(*study.scenario), 4));
+  content.finding += fmt::format(
+      " Longitudinal waves of the rock run at {} m/s: a faster apparent front means several cracks opening "
+      "independently.",
+      number(wave_speed(*study.scenario), 4));
   return content;
 }
 

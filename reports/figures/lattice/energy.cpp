@@ -339,8 +339,8 @@ FigureContent heat_tension(const StudyResult& study) {
                                                {{m.d1, "D₁"}, {m.d2, "D₂"}}, study.published_value("crack_duration"))});
     std::string friction = r->has(quantity::friction_after_last_opening)
                                ? fmt::format(
-                                     "frictional heat begins {} µs {} the last opening and ends at {} % of the work, "
-                                     "as cracks close again",
+                                     "frictional heat begins {} µs {} the last opening and reaches {} % of the work, "
+                                     "because cracks close again",
                                      number(1e6 * std::abs(r->value_or_nan(quantity::friction_after_last_opening)), 3),
                                      r->value_or_nan(quantity::friction_after_last_opening) < 0 ? "before" : "after",
                                      number(100 * r->value(quantity::frictional_share), 2))

@@ -131,15 +131,14 @@ Panel field_panel(const dem::Record& r, const std::string& table, double strain,
   p.scene.axes = true;
   p.scale_bar = false;
   p.label = field.words + " at " + at_strain(r, strain);
-  p.scene.bar = render::ColourBar{.title = field.words + (field.has_sign ? " (10⁻³ k), tension positive" : " (10⁻³ k)"),
-                                  .low = 1e3 * field.low,
-                                  .high = 1e3 * field.high,
-                                  .colours = {}};
+  p.scene.bar = render::ColourBar{
+      .title = field.words + " (10⁻³ k)", .low = 1e3 * field.low, .high = 1e3 * field.high, .colours = {}};
   for (int k = 0; k < 64; ++k) p.scene.bar->colours.push_back(colour_of(field, (k + 0.5) / 64));
   const auto range = std::minmax_element(value.begin(), value.end());
   return {
       .id = field.column + fmt::format("_{}", table.substr(table.size() - 4)),
-      .caption = fmt::format("{}; the colours span all values but the most extreme hundredth.", field.words),
+      .caption = fmt::format("{}{}; the colours span all values but the most extreme hundredth.", field.words,
+                             field.has_sign ? ", tension positive" : ""),
       .alt = fmt::format("Values go from {} to {} in units of k.", number(*range.first, 2), number(*range.second, 2)),
       .content = p,
       .per_row = 2};
@@ -186,7 +185,7 @@ FigureContent stress_strain(const StudyResult& study) {
          .per_row = 2});
     content.panels.push_back(
         {.id = r->case_id + "_breaks",
-         .caption = label == "this run" ? "Broken springs so far." : "Broken springs so far, " + label + ".",
+         .caption = label == "this run" ? "Cumulative broken springs." : "Cumulative broken springs, " + label + ".",
          .alt = fmt::format("{} springs have broken at the end.",
                             count(r->value(quantity::cracks_intra_tension) + r->value(quantity::cracks_inter_tension))),
          .content = breaks_chart(*r),
@@ -365,7 +364,7 @@ FigureContent solvers(const StudyResult& study) {
       "the "
       "historical one.",
       same == 0 ? "The very first break differs"
-                : fmt::format("The order is the same up to break {}", count(static_cast<double>(same))),
+                : fmt::format("The breaks coincide up to number {}", count(static_cast<double>(same))),
       percent(both, 0));
   return content;
 }

@@ -380,8 +380,8 @@ FigureContent confinement_after_peak(const StudyResult& study) {
   const std::string ratios = by_case(cases, residual, 2, "");
   content.panels.push_back(
       {.id = "residual",
-       .caption = "Residual stress over the peak: the mean over the last twentieth of the strain that all tests are "
-                  "followed to, as a multiple of their peak’s; "
+       .caption = "Residual stress over the peak: the mean over the last 5 % of the strain range that all tests "
+                  "share, in multiples of each test’s peak strain; "
                   "and the stress at one and the same strain after the peak, as far as the shortest test goes.",
        .alt = "Residual over peak " + ratios + "; at " + same_strain + " " + by_case(cases, equal, 2, "") + ".",
        .content = chart});

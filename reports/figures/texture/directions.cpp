@@ -36,8 +36,9 @@ std::string plane_words(const analysis::Maximum& m) {
 
 Net net_of(const Found& found) {
   Net net{.label = found.label, .words = {}, .poles = found.poles, .maximum = found.maximum};
-  net.words.push_back(count(static_cast<double>(found.poles.weight.size())) + " poles" +
-                      (found.maximum ? fmt::format(", at most {} ×", number(found.maximum->times_uniform, 2)) : ""));
+  net.words.push_back(
+      count(static_cast<double>(found.poles.weight.size())) + " poles" +
+      (found.maximum ? fmt::format(", maximum {} × uniform", number(found.maximum->times_uniform, 2)) : ""));
   net.words.push_back(found.maximum ? fmt::format("dip {}° to {}°", number(found.maximum->dip(), 2),
                                                   count(std::round(found.maximum->dip_direction())))
                                     : "");
@@ -88,8 +89,8 @@ FigureContent crack_directions(const StudyResult& study) {
   if (found.empty()) return content;
   content.panels.push_back(
       {.id = "nets",
-       .caption = "Poles of all cracks on the lower hemisphere, equal areas, weighted by crack area (what broke of a "
-                  "contact in one mode is one pole): density by the kernel of Kamb and Vollmer; the load is along z, "
+       .caption = "Poles of all cracks on the lower hemisphere, equal areas, weighted by crack area (one pole per "
+                  "contact and mode): density by the kernel of Kamb and Vollmer; the load is along z, "
                   "the middle of the net.",
        .alt = all_words(found) + ".",
        .content = nets_of(found),

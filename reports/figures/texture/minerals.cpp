@@ -102,7 +102,7 @@ FigureContent mineral_properties(const StudyResult& study) {
       PropertyBars{
           .id = "m",
           .title = "Hoek-Brown m",
-          .caption = "Hoek-Brown m of the minerals; whiskers: 95 % intervals, where there are pressures enough."}};
+          .caption = "Hoek-Brown m of the minerals; whiskers: 95 % intervals, where enough pressures were run."}};
   for (const std::string& mineral : minerals_tested(study)) {
     const StudyResult part = of_mineral(study, mineral);
     const auto pressed = series_of(part, test_compression, parameter::confining_pressure);

@@ -334,7 +334,7 @@ std::string roses_drawing(const std::vector<Rose>& roses) {
   body += fmt::format(
               "<path d=\"M12 {:.1f}h26\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.4\" stroke-dasharray=\"5 3\"/>",
               y + 7, mark) +
-          text(45, y + 11, "all strikes alike", "start") +
+          text(45, y + 11, "uniform", "start") +
           text(190, y + 11, fmt::format("rim: {} of the trace length in 10° of strike", percent(most, 1)), "start");
   return page(rows.height() + 24, body);
 }

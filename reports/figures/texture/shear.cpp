@@ -117,7 +117,7 @@ FigureContent direct_shear_envelope(const StudyResult& study) {
   add(quantity::residual_shear, "residual", 1);
   chart.legend = render::Chart::Legend::below;
   content.panels.push_back({.id = "envelope",
-                            .caption = "Strengths against the normal stress, and the lines of Mohr and Coulomb.",
+                            .caption = "Strengths against the normal stress, and the Mohr-Coulomb fits.",
                             .alt = "Mohr-Coulomb lines: " + joined(said, "; ") + ".",
                             .content = chart});
   content.panels.push_back({.id = "table",
