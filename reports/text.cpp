@@ -72,6 +72,11 @@ std::string with_sign(std::string text) {
 
 std::string shortest(double value) { return dressed(fmt::format("{:.9g}", value)); }
 
+std::string p_text(double p, int draws) {
+  const double least = 1.0 / draws;
+  return p < least ? "p < " + number(least, 1) : "p = " + number(p, 2);
+}
+
 std::string count(double value) { return fixed(value, 0); }
 
 std::string seeds_text(std::size_t seeds) { return seeds == 1 ? "one seed" : fmt::format("{} seeds", seeds); }

@@ -27,6 +27,8 @@ std::string percent(double fraction, int places = 1);
 std::string with_sign(std::string text);
 /// As short as it can be without loss: "206.8", "55".
 std::string shortest(double value);
+/// "p = 0.02", "p < 0.005": by `draws` samples.
+std::string p_text(double p, int draws);
 /// A count with thin spaces: "36 528".
 std::string count(double value);
 

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <set>
+
+#include "engine/analysis/goodness.h"
 
 namespace dem::analysis {
 namespace {
@@ -114,36 +118,59 @@ double hurwitz_zeta(double s, double a) {
   return sum + s * (s + 1) * (s + 2) * (s + 3) * (s + 4) / 30240 * std::pow(x, -s - 5);
 }
 
+bool PowerLaw::holds() const { return p >= least_p; }
+
 double PowerLaw::at_least(double n) const {
   return hurwitz_zeta(exponent.value, n) / hurwitz_zeta(exponent.value, least);
 }
 
+namespace {
+
+// The exponent under which the mean of ln n is what it is. It is -zeta'/zeta and falls with the exponent. Curvature by differences.
+struct Likely {
+  std::int32_t least;
+  [[nodiscard]] double mean(double s) const { return -(logarithm(s + 1e-5) - logarithm(s - 1e-5)) / 2e-5; }
+  [[nodiscard]] double exponent(double mean_logarithm) const {
+    double low = 1.0001, high = 30;
+    for (int step = 0; step < 40; ++step) {
+      const double middle = 0.5 * (low + high);
+      (mean(middle) > mean_logarithm ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+  }
+
+ private:
+  [[nodiscard]] double logarithm(double s) const { return std::log(hurwitz_zeta(s, least)); }
+};
+
+double mean_logarithm(std::span<const std::int32_t> numbers) {
+  double sum = 0;
+  for (const std::int32_t n : numbers) sum += std::log(n);
+  return sum / static_cast<double>(numbers.size());
+}
+
+}  // namespace
+
 std::optional<PowerLaw> fit_power_law(std::span<const std::int32_t> particles, std::int32_t least) {
-  constexpr std::size_t fewest = 10;
+  constexpr std::size_t fewest = 30, fewest_sizes = 5;
   PowerLaw law;
   law.least = least;
-  double logarithms = 0;
-  bool differ = false;
-  for (const std::int32_t n : particles) {
-    if (n < least) continue;
-    ++law.fragments;
-    logarithms += std::log(n);
-    differ = differ || n != least;
-  }
-  if (law.fragments < fewest || !differ) return std::nullopt;
-  const auto count = static_cast<double>(law.fragments);
-  // The mean of ln n is -zeta'/zeta: it falls with the exponent. Curvature by differences.
-  const auto zeta = [&](double s) { return std::log(hurwitz_zeta(s, least)); };
-  const auto mean = [&](double s) { return -(zeta(s + 1e-5) - zeta(s - 1e-5)) / 2e-5; };
-  double low = 1.0001, high = 30;
-  for (int step = 0; step < 100; ++step) {
-    const double middle = 0.5 * (low + high);
-    (mean(middle) > logarithms / count ? low : high) = middle;
-  }
-  const double s = 0.5 * (low + high);
-  const double curvature = -(mean(s + 1e-3) - mean(s - 1e-3)) / 2e-3;
-  const double half = 1.959964 / std::sqrt(count * curvature);
+  std::vector<std::int32_t> fitted;
+  std::ranges::copy_if(particles, std::back_inserter(fitted), [least](std::int32_t n) { return n >= least; });
+  law.fragments = fitted.size();
+  if (law.fragments < fewest || std::set(fitted.begin(), fitted.end()).size() < fewest_sizes) return std::nullopt;
+  const Likely likely{least};
+  const double s = likely.exponent(mean_logarithm(fitted));
+  const double curvature = -(likely.mean(s + 1e-3) - likely.mean(s - 1e-3)) / 2e-3;
+  const double half = 1.959964 / std::sqrt(static_cast<double>(law.fragments) * curvature);
   law.exponent = {s, s - half, s + half};
+  const auto p = plausibility(fitted, least, [&](std::span<const std::int32_t> sample) -> std::optional<Tail> {
+    const double exponent = likely.exponent(mean_logarithm(sample));
+    return [exponent, least, all = hurwitz_zeta(exponent, least)](std::int64_t n) {
+      return hurwitz_zeta(exponent, static_cast<double>(n)) / all;
+    };
+  });
+  law.p = p.value_or(0);
   return law;
 }
 

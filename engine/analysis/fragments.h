@@ -44,9 +44,11 @@ struct PowerLaw {
   Estimate exponent;
   std::int32_t least = 1;
   std::size_t fragments = 0;
+  double p = 0;                                   ///< of such sizes by the law (goodness.h)
+  [[nodiscard]] bool holds() const;               ///< it is not ruled out
   [[nodiscard]] double at_least(double n) const;  ///< share of fragments that have n particles or more
 };
-/// Nothing with fewer than ten fragments, or where all have one size.
+/// Nothing with fewer than thirty fragments, or fewer than five sizes: too few to tell a law by.
 std::optional<PowerLaw> fit_power_law(std::span<const std::int32_t> particles, std::int32_t least = 1);
 
 /// The zeta function of Hurwitz, sum of (a + k)^-s over k = 0, 1, ...; s > 1, a > 0.

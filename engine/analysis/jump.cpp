@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/analysis/fits.h"
-
 namespace dem::analysis {
 namespace {
 
@@ -30,32 +28,41 @@ std::optional<Jump> jump_across(std::span<const double> point, std::span<const d
   constexpr double fewest = 10;
   const Vec level = cross(band.normal, band.along);
   const std::array<Vec, 3> direction{band.normal, band.along, level};
-  std::vector<double> distance;
-  std::array<std::vector<double>, 3> moved;
-  struct Layer {
-    double points = 0, distance = 0;
-    std::array<double, 3> moved{};
+  // Sums over a side, all that lies beyond a face, and over its layer next to the face.
+  struct Side {
+    double points = 0, distance = 0, squares = 0, layer_points = 0, layer_distance = 0;
+    std::array<double, 3> moved{}, product{}, layer_moved{};
   };
-  Layer below, above;
+  std::array<Side, 2> sides;
   for (std::size_t i = 0; i + 2 < point.size(); i += 3) {
     const double d = dot(band.normal, &point[i]) - band.offset, size = std::abs(d);
-    const bool inside = size >= 0.5 * band.thickness && size <= band.thickness;
-    Layer& layer = d > 0 ? above : below;
-    distance.push_back(d);
-    layer.points += inside;
-    layer.distance += inside ? d : 0;
+    if (size < 0.5 * band.thickness) continue;
+    const double in_layer = size <= band.thickness ? 1 : 0;
+    Side& side = sides[d > 0 ? 1 : 0];
+    side.points += 1;
+    side.distance += d;
+    side.squares += d * d;
+    side.layer_points += in_layer;
+    side.layer_distance += in_layer * d;
     for (std::size_t k = 0; k < 3; ++k) {
-      moved[k].push_back(dot(direction[k], &displacement[i]));
-      layer.moved[k] += inside ? moved[k].back() : 0;
+      const double moved = dot(direction[k], &displacement[i]);
+      side.moved[k] += moved;
+      side.product[k] += d * moved;
+      side.layer_moved[k] += in_layer * moved;
     }
   }
-  if (std::min(below.points, above.points) < fewest) return std::nullopt;
+  const auto& [below, above] = sides;
+  if (std::min(below.layer_points, above.layer_points) < fewest) return std::nullopt;
+  double squares = 0;
+  for (const Side& side : sides) squares += side.squares - side.distance * side.distance / side.points;
+  if (!(squares > 0)) return std::nullopt;
   std::array<Jump::Part, 3> parts{};
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto line = fit_line(distance, moved[k]);
-    if (!line) return std::nullopt;
-    parts[k].moved = above.moved[k] / above.points - below.moved[k] / below.points;
-    parts[k].even = line->slope.value * (above.distance / above.points - below.distance / below.points);
+    double product = 0;
+    for (const Side& side : sides) product += side.product[k] - side.distance * side.moved[k] / side.points;
+    parts[k].moved = above.layer_moved[k] / above.layer_points - below.layer_moved[k] / below.layer_points;
+    parts[k].even =
+        product / squares * (above.layer_distance / above.layer_points - below.layer_distance / below.layer_points);
   }
   return Jump{parts[0], parts[1], parts[2]};
 }

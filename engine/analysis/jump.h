@@ -15,11 +15,12 @@ struct BandFrame {
 BandFrame band_frame(const std::array<double, 3>& normal, double offset, double thickness);
 
 /// Displacement of the layer beyond the upper face of a band, half as thick as it, less that of the layer beyond the other face;
-/// and how much of it an even strain would give: the straight line through the displacements of all points. Where the first is
-/// no more than the second, nothing is localised.
+/// and how much of it the strain of the sides would give: the common slope of two straight lines, one through the points on each
+/// side. What is left is the jump: none under an even strain, all of it where two stiff halves part.
 struct Jump {
   struct Part {
     double moved = 0, even = 0;
+    [[nodiscard]] double beyond() const { return moved - even; }
   };
   Part opening;   ///< across the band; negative: it closes
   Part slip;      ///< in its plane, along its steepest direction: up is positive

@@ -17,6 +17,7 @@ enum class Purpose : std::uint32_t {
   sheet_grain_stiffness = 21,
   sheet_spring_thresholds = 22,
   random_cracks = 40,
+  law_draws = 41,
   test_data = 100,
 };
 

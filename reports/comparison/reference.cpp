@@ -279,8 +279,14 @@ Json picture_json_of_old(const Json& old, const std::string& id) { return old.at
 
 std::string log_line(const std::string& study, const Acceptance& acceptance, const Accepted& accepted,
                      const std::string& hash) {
+  // A study that is accepted as a whole can change in hundreds of places; the reference itself holds them all.
+  constexpr std::size_t most = 30;
   Json items = Json::array();
   for (const Item& item : accepted.changed) {
+    if (items.size() == most) {
+      items.push_back({{"what", "others"}, {"difference", fmt::format("{} more", accepted.changed.size() - most)}});
+      break;
+    }
     Json one{{"what", item.id}};
     if (item.state != State::beyond) one["state"] = state_words(item.state);  // most are beyond tolerance
     if (!item.was.empty()) one["old"] = item.was;

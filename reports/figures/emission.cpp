@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <set>
 
+#include "engine/analysis/goodness.h"
 #include "reports/text.h"
 
 namespace reports {
@@ -20,6 +22,7 @@ struct SourceKind {
 constexpr std::array<SourceKind, 3> sources{{{analysis::Source::opens, "opens", {0.882, 0.431, 0.106}},
                                              {analysis::Source::shears, "shears", {0.0, 0.412, 0.725}},
                                              {analysis::Source::closes, "closes", {0.0, 0.0, 0.0}}}};
+constexpr double magnitude_bin = 0.1;
 constexpr render::Colour unknown_source{0.35, 0.35, 0.35};
 
 double heat_at(const dem::Table& history, const std::vector<std::string>& columns, double time) {
@@ -156,7 +159,7 @@ render::Chart magnitude_chart(const std::vector<Emission>& all) {
       left -= static_cast<double>(bins.events[k]);
     }
     chart.series.push_back(series);
-    if (!e.law) continue;
+    if (!e.law || !e.law->holds()) continue;
     render::Series line = line_of(
         e.law->complete_from, bins.centre(bins.events.size() - 1), [&](double m) { return e.law->at_least(m); }, 1);
     line.colour = e.looks.colour;
@@ -241,11 +244,18 @@ Picture map_of(const Emission& e, double largest) {
   return picture;
 }
 
+std::optional<analysis::GutenbergRichter> law_of(const Emission& e, double from = -1e9) {
+  std::vector<double> magnitudes;
+  for (const analysis::Event& event : e.events) magnitudes.push_back(event.magnitude());
+  return analysis::fit_magnitudes(magnitudes, magnitude_bin, 30, from);
+}
+
 TextTable table_of(const std::vector<Emission>& all) {
-  TextTable table{{"Case", "Cracks", "Events", "Cracks of the largest event", "Energy of all events (mJ)",
-                   "Ratio to the heat of breaking", "Window (mm)", "Window (µs)", "Largest magnitude",
-                   "Complete from M", "Events above", "b"},
-                  {}};
+  TextTable table{
+      {"Case", "Cracks", "Events", "Cracks of the largest event", "Energy of all events (mJ)",
+       "Energy of all events over heat of breaking in the ledger", "Window in space (mm)", "Window in time (µs)",
+       "Largest magnitude", "Fitted from M", "Events from there on", "b ± standard error"},
+      {}};
   for (const Emission& e : all) {
     std::size_t most = 0;
     double largest = -1e9;
@@ -258,26 +268,52 @@ TextTable table_of(const std::vector<Emission>& all) {
          count(static_cast<double>(most)), number(1e3 * e.energy(), 4), fixed(e.energy() / e.heat, 5),
          number(1e3 * e.window.length, 3), number(1e6 * e.window.time, 3), number(largest, 3),
          e.law ? number(e.law->complete_from, 2) : "–", e.law ? count(static_cast<double>(e.law->events)) : "–",
-         e.law ? fixed(e.law->b, 2) + " ± " + fixed(e.law->error, 2) : "–"});
+         !e.law           ? "too few events"
+         : e.law->holds() ? fixed(e.law->b, 2) + " ± " + fixed(e.law->error, 2)
+                          : "no straight line, " + p_text(e.law->p, analysis::law_samples)});
   }
   return table;
 }
 
-// A sentence for all that have a law, and one for those with too few events.
+// A sentence for all that have a law, and one each for those that follow none and for those with too few events.
 std::string laws_words(const std::vector<Emission>& all) {
-  std::vector<std::string> laws, without;
+  std::vector<std::string> laws, bent, without;
+  std::set<long> from;  // in bins
   for (const Emission& e : all) {
     if (!e.law) {
       without.push_back(e.looks.label);
-      continue;
+    } else if (!e.law->holds()) {
+      bent.push_back(e.looks.label);
+    } else {
+      from.insert(std::lround(e.law->complete_from / magnitude_bin));
+      laws.push_back(fmt::format("{}: b {} ± {} from {} events of M {} or more", e.looks.label, fixed(e.law->b, 2),
+                                 fixed(e.law->error, 2), count(static_cast<double>(e.law->events)),
+                                 number(e.law->complete_from, 2)));
     }
-    laws.push_back(fmt::format("{}: b {} ± {} from {} events of M {} or more", e.looks.label, fixed(e.law->b, 2),
-                               fixed(e.law->error, 2), count(static_cast<double>(e.law->events)),
-                               number(e.law->complete_from, 2)));
   }
-  if (laws.empty()) return "Too few events for a b-value.";
-  return capital(joined(laws, "; ")) + "." +
-         (without.empty() ? "" : " Too few events for a b-value: " + joined(without, "; ") + ".");
+  std::vector<std::string> said;
+  if (!laws.empty()) said.push_back(capital(joined(laws, "; ")) + ".");
+  if (from.size() > 1)
+    said.emplace_back("The lines begin at different magnitudes, so that these b-values cannot be compared closely.");
+  if (!bent.empty()) said.push_back("No b-value, as magnitudes follow no straight line: " + joined(bent, "; ") + ".");
+  if (!without.empty()) said.push_back("Too few events for a b-value: " + joined(without, "; ") + ".");
+  return joined(said, " ");
+}
+
+// b-values are compared from one magnitude on, the highest of those that the cases are complete from, where all have a law
+// from there.
+void fit_alike(std::vector<Emission>& all) {
+  double from = -1e9;
+  for (const Emission& e : all)
+    if (e.law && e.law->holds()) from = std::max(from, e.law->complete_from);
+  std::vector<std::optional<analysis::GutenbergRichter>> alike;
+  for (const Emission& e : all) {
+    alike.push_back(e.law);
+    if (!e.law || !e.law->holds() || e.law->complete_from > from - 0.5 * magnitude_bin) continue;
+    alike.back() = law_of(e, from);
+    if (!alike.back() || !alike.back()->holds() || alike.back()->complete_from > from + 0.5 * magnitude_bin) return;
+  }
+  for (std::size_t c = 0; c < all.size(); ++c) all[c].law = alike[c];
 }
 
 }  // namespace
@@ -302,21 +338,22 @@ std::optional<Emission> emission_of(const SeriesCase& item, const Emitter& of) {
   if (!(found.window.time > 0)) return std::nullopt;
   found.events = analysis::events_of(found.hits.all, found.window);
   std::erase_if(found.events, [](const analysis::Event& e) { return !(e.energy > 0); });
-  std::vector<double> magnitudes;
-  for (const analysis::Event& e : found.events) magnitudes.push_back(e.magnitude());
-  found.law = analysis::fit_magnitudes(magnitudes);
+  found.law = law_of(found);
   found.heat = heat_at(item.record->table("history"), of.heat, found.hits.all.back().time);
   return found;
 }
 
-void add_emission(FigureContent& content, const std::vector<Emission>& all) {
+void add_emission(FigureContent& content, std::vector<Emission> all) {
   if (all.empty()) return;
+  fit_alike(all);
   const Emission& base = all.front();
-  content.panels.push_back({.id = "activity",
-                            .caption = "Cracks and events against the strain of the ends: " + base.looks.label + ".",
-                            .alt = fmt::format("{} cracks are {} events.", base.hits.all.size(), base.events.size()),
-                            .content = activity_chart(base),
-                            .per_row = 2});
+  const std::string aside = base.strain == "platen_strain" ? ", which is larger than the gauge’s" : "";
+  content.panels.push_back(
+      {.id = "activity",
+       .caption = "Cracks and events against the strain of the ends" + aside + ": " + base.looks.label + ".",
+       .alt = fmt::format("{} cracks are {} events.", base.hits.all.size(), base.events.size()),
+       .content = activity_chart(base),
+       .per_row = 2});
   content.panels.push_back({.id = "rate",
                             .caption = "Cracks per strain while the stress rises to its peak.",
                             .alt = "Cracks per strain against stress, up to the peak.",
@@ -324,7 +361,8 @@ void add_emission(FigureContent& content, const std::vector<Emission>& all) {
                             .per_row = 2});
   content.panels.push_back({.id = "magnitudes",
                             .caption = "Events by magnitude, M = 2/3 (log₁₀ E − 4.8) with all released energy E in J; "
-                                       "lines by maximum likelihood from where the catalogue is complete.",
+                                       "lines by maximum likelihood, from the magnitude on from which the catalogue is "
+                                       "complete and follows a straight line.",
                             .alt = laws_words(all),
                             .content = magnitude_chart(all),
                             .per_row = 2});
@@ -342,18 +380,21 @@ void add_emission(FigureContent& content, const std::vector<Emission>& all) {
   double largest = 0;
   for (const Emission& e : all)
     for (const analysis::Event& event : e.events) largest = std::max(largest, event.energy);
+  const auto [factor, unit] = energy_unit(largest);
   for (const Emission& e : all)
     content.panels.push_back(
         {.id = "map_" + e.looks.id,
-         .caption =
-             "Events as spheres whose volume is their energy, on one scale for all; none is drawn smaller than half a "
-             "particle.",
+         .caption = fmt::format("Events as spheres whose volume is their energy, on one scale for all; the largest has "
+                                "{} {}. None is drawn smaller than half a particle.",
+                                number(factor * largest, 3), unit),
          .alt = fmt::format("{} events at {}.", e.events.size(), e.looks.label),
          .content = map_of(e, largest),
          .per_row = per_row});
   content.panels.push_back({.id = "table",
-                            .caption = "Events, their energy beside the heat of breaking in the ledger, and the law of "
-                                       "their magnitudes: b ± its standard error, where events are enough.",
+                            .caption =
+                                "Events up to the last crack of the test, their energy over the heat of breaking in "
+                                "the ledger at that time, and the law of their magnitudes, where 30 events or "
+                                "more follow a straight line.",
                             .alt = "",
                             .content = table_of(all),
                             .per_row = 1});

@@ -37,6 +37,6 @@ struct Emitter {
 std::optional<Emission> emission_of(const SeriesCase& item, const Emitter& of);
 
 /// The panels and the finding; `content` as it is of nothing.
-void add_emission(FigureContent& content, const std::vector<Emission>& all);
+void add_emission(FigureContent& content, std::vector<Emission> all);
 
 }  // namespace reports

@@ -7,6 +7,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/analysis/goodness.h"
+#include "reports/text.h"
+
 namespace reports {
 namespace {
 
@@ -138,7 +141,7 @@ render::Chart fragments_by_number(const std::vector<Broken>& cases) {
     }
     most = std::max(most, static_cast<double>(numbers.size()));
     chart.series.push_back(series);
-    if (const auto law = size_law(broken)) {
+    if (const auto law = size_law(broken); law && law->holds()) {
       render::Series line{.label = "", .x = {}, .y = {}, .colour = broken.colour, .line = broken.line, .y_error = {}};
       for (double n = law->least; n < 2e4; n *= 1.25) {
         const double parts = static_cast<double>(law->fragments) * law->at_least(n);
@@ -188,13 +191,16 @@ TextTable fragments_table(const std::vector<Broken>& cases) {
   for (const Broken& broken : cases) {
     const std::size_t main = broken.parts.of_at_least(large), single = broken.parts.single();
     const auto law = size_law(broken);
-    const auto share = [&](std::size_t k) {
-      return k < broken.parts.all.size() ? number(100 * broken.parts.share(k), 3) : std::string("–");
+    const auto share = [&](std::size_t k) {  // single particles are counted apart, as in the pictures
+      const bool is_part = k < broken.parts.all.size() && broken.parts.all[k].particles > 1;
+      return is_part ? number(100 * broken.parts.share(k), 3) : std::string("–");
     };
     table.rows.push_back({broken.label, std::to_string(main), share(0), share(1), share(2),
                           count(static_cast<double>(broken.parts.all.size() - single - main)),
                           count(static_cast<double>(single)),
-                          law ? estimate_text(law->exponent, 3, true) : "too few parts"});
+                          !law           ? "too few"
+                          : law->holds() ? estimate_text(law->exponent, 3, true)
+                                         : "no power law, " + p_text(law->p, analysis::law_samples)});
   }
   return table;
 }

@@ -119,7 +119,22 @@ std::vector<bool> number_columns(const TextTable& table) {
   return numbers;
 }
 
-void set_table(PageData& data, const TextTable& table) {
+// A few cases with many results read better as columns: a page is not wide enough for both their heads.
+TextTable turned(const TextTable& table) {
+  constexpr std::size_t many = 7, few = 4;
+  if (table.head.size() <= many || table.rows.size() > few) return table;
+  TextTable upright{{""}, {}};
+  for (const auto& row : table.rows) upright.head.push_back(row.front());
+  for (std::size_t column = 1; column < table.head.size(); ++column) {
+    std::vector<std::string> line{table.head[column]};
+    for (const auto& row : table.rows) line.push_back(column < row.size() ? row[column] : "");
+    upright.rows.push_back(std::move(line));
+  }
+  return upright;
+}
+
+void set_table(PageData& data, const TextTable& as_declared) {
+  const TextTable table = turned(as_declared);
   // Bytes of a name that stays in one line.
   const std::size_t brief = table.head.size() > 9 ? 16 : 26;
   const std::vector<bool> numbers = number_columns(table);

@@ -314,6 +314,23 @@ TEST_CASE("items are accepted one by one, with what was and is in the log") {
         2);
 }
 
+TEST_CASE("the log of a study that changed everywhere stays short") {
+  const test::Scratch folder;
+  MadeReport made;
+  for (int k = 0; k < 40; ++k) made.cases[0].results["inter_quartz_" + std::to_string(k)] = k;
+  comparison::accept(made.write(folder / "out"), folder / "references", {.reason = "first", .date = "night 1"},
+                     options);
+  for (auto& [name, value] : made.cases[0].results) value *= 2;
+  comparison::accept(made.write(folder / "out"), folder / "references", {.reason = "second", .date = "night 2"},
+                     options);
+  const std::string log = dem::read_file(folder / "references/accepted.jsonl");
+  const std::string last = log.substr(log.find("night 2"));
+  std::size_t items = 0;
+  for (std::size_t at = last.find("\"what\""); at != std::string::npos; at = last.find("\"what\"", at + 1)) ++items;
+  CHECK(items == 31);
+  CHECK(has(last, "more\",\"what\":\"others\""));
+}
+
 TEST_CASE("an acceptance that was killed after it took place gets its line in the log") {
   const test::Scratch folder;
   const fs::path study = MadeReport{}.write(folder / "out");

@@ -165,3 +165,30 @@ TEST_CASE("the line through the catalogue gives its number of events; too few ha
   CHECK_FALSE(fit_magnitudes(std::vector<double>(200, -5.0)));
   CHECK_FALSE(fit_magnitudes({}));
 }
+
+TEST_CASE("a catalogue that bends is fitted from where it is straight, and one of two humps not at all") {
+  dem::RandomStream random(4, dem::Purpose::test_data);
+  std::vector<double> bent = catalogue(random, 1, -6, 1000);
+  for (double& m : bent)
+    if (m < -5.5) m = -5.5 + 0.1 * random.uniform() * 5;  // even up to -5, then as it was
+  const auto fit = fit_magnitudes(bent);
+  REQUIRE(fit);
+  CHECK(fit->holds());
+  CHECK(fit->complete_from > -5.55);
+  CHECK(std::abs(fit->b - 1) < 3 * fit->error);
+  std::vector<double> humps;
+  for (int k = 0; k < 400; ++k) humps.push_back((k % 2 == 0 ? -6.0 : -4.0) + 0.05 * random.normal());
+  const auto none = fit_magnitudes(humps);
+  REQUIRE(none);
+  CHECK_FALSE(none->holds());
+}
+
+TEST_CASE("a law can be asked to begin higher") {
+  dem::RandomStream random(5, dem::Purpose::test_data);
+  const auto magnitudes = catalogue(random, 1, -6, 2000);
+  const auto fit = fit_magnitudes(magnitudes, 0.1, 30, -5.5);
+  REQUIRE(fit);
+  CHECK(fit->complete_from >= -5.55);
+  CHECK(fit->events < 1000);
+  CHECK_FALSE(fit_magnitudes(magnitudes, 0.1, 30, 5));
+}

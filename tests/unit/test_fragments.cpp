@@ -93,7 +93,7 @@ TEST_CASE("the zeta function of Hurwitz has its known values") {
 
 TEST_CASE("a power law of sizes comes back within its interval") {
   dem::RandomStream random(1, dem::Purpose::test_data);
-  int held = 0;
+  int held = 0, ruled_out = 0;
   constexpr int catalogues = 200;
   const double exponent = 2.2, all = hurwitz_zeta(exponent, 1);
   for (int c = 0; c < catalogues; ++c) {
@@ -107,11 +107,26 @@ TEST_CASE("a power law of sizes comes back within its interval") {
     const auto law = fit_power_law(sizes);
     REQUIRE(law);
     held += law->exponent.low <= exponent && exponent <= law->exponent.high;
+    ruled_out += !law->holds();
     CHECK(law->at_least(1) == Approx(1));
     CHECK(law->at_least(2) == Approx(1 - 1 / hurwitz_zeta(law->exponent.value, 1)));
   }
   CHECK(held >= 182);  // of 95 %, 190: three standard deviations below
   CHECK(held <= 199);
+  CHECK(ruled_out <= 7);  // of 1 %, 2: some three standard deviations above
   CHECK_FALSE(fit_power_law(std::vector<std::int32_t>(20, 1)));
   CHECK_FALSE(fit_power_law(std::vector<std::int32_t>{1, 2, 3}));
+}
+
+TEST_CASE("sizes that follow no power law are told so") {
+  dem::RandomStream random(2, dem::Purpose::test_data);
+  std::vector<std::int32_t> sizes;
+  for (int k = 0; k < 200; ++k) sizes.push_back(20 + static_cast<std::int32_t>(random.below(20)));
+  const auto law = fit_power_law(sizes);
+  REQUIRE(law);
+  CHECK_FALSE(law->holds());
+  CHECK_FALSE(fit_power_law(std::vector<std::int32_t>(29, 1)));
+  std::vector<std::int32_t> four_sizes(50, 1);
+  four_sizes.insert(four_sizes.end(), {2, 3, 4});
+  CHECK_FALSE(fit_power_law(four_sizes));
 }

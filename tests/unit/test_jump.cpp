@@ -39,7 +39,8 @@ TEST_CASE("two halves that moved as wholes have moved by their difference") {
   CHECK(found->opening.moved == Approx(0.3));
   CHECK(found->slip.moved == Approx(-0.2));
   CHECK(std::abs(found->sideways.moved) == Approx(0.1));
-  CHECK(found->opening.even < 0.3 * 0.6);  // the cube is many times as wide
+  for (const Jump::Part& part : {found->opening, found->slip, found->sideways})
+    CHECK(part.even == Approx(0).scale(1).epsilon(1e-9));  // the halves are stiff
   const JumpProfile profile = profile_across(points, moved, band, 0.1, 0.5);
   REQUIRE(profile.distance.size() == 10);
   CHECK(profile.across[9] - profile.across[0] == Approx(0.3));
@@ -53,5 +54,17 @@ TEST_CASE("an even strain is all of what it moves, and a band without two sides 
   REQUIRE(found);
   CHECK(found->opening.moved > 1e-4);
   CHECK(found->opening.moved == Approx(found->opening.even));
+  CHECK(found->opening.beyond() == Approx(0).scale(1e-4).epsilon(1e-6));
   CHECK_FALSE(jump_across(points, moved, band_frame({0, 0, 1}, 0.9, 0.4)));
+}
+
+TEST_CASE("a jump in a strained body is what the strain does not give") {
+  const auto points = cube();
+  std::vector<double> moved;
+  for (std::size_t i = 0; i < points.size(); i += 3)
+    moved.insert(moved.end(), {1e-3 * points[i], 0.0, -4e-3 * points[i + 2] + (points[i + 2] > 0 ? 2e-3 : 0.0)});
+  const auto found = jump_across(points, moved, band_frame({0, 0, 1}, 0, 0.4));
+  REQUIRE(found);
+  CHECK(found->opening.beyond() == Approx(2e-3).epsilon(1e-6));
+  CHECK(found->opening.even == Approx(-4e-3 * 0.6).epsilon(0.05));
 }

@@ -77,17 +77,19 @@ render::Chart profile_chart(const Across& across) {
 
 std::string micro(double metres) { return number(1e6 * metres, 3); }
 
-// Displacement in the plane of the band.
-double slip_of(const analysis::Jump& jump) { return std::hypot(jump.slip.moved, jump.sideways.moved); }
+// In the plane of the band, beyond what the strain of the sides gives.
+double slip_of(const analysis::Jump& jump) { return std::hypot(jump.slip.beyond(), jump.sideways.beyond()); }
 
 constexpr const char* at_an_end = "the band reaches an end, so that there is nothing beyond it to compare";
 
 std::string jump_words(const Across& across) {
   if (!across.jump) return across.looks.label + ": " + at_an_end;
-  const double opening = across.jump->opening.moved;
-  return fmt::format("{}: across a band at {}° to the axis the sides have {} by {} µm and slipped by {} µm",
-                     across.looks.label, number(across.fit.inclination, 2), opening > 0 ? "parted" : "closed up",
-                     micro(std::abs(opening)), micro(slip_of(*across.jump)));
+  const double opening = across.jump->opening.beyond();
+  return fmt::format(
+      "{}: across a band at {}° to the axis the sides have {} by {} µm and slipped by {} µm beyond "
+      "what their strain gives",
+      across.looks.label, number(across.fit.inclination, 2), opening > 0 ? "parted" : "closed up",
+      micro(std::abs(opening)), micro(slip_of(*across.jump)));
 }
 
 }  // namespace
@@ -106,24 +108,42 @@ FigureContent displacement_jump(const StudyResult& study) {
     if (auto found = across_of(looks)) all.push_back(std::move(*found));
   }
   if (all.empty()) return content;
+  // The band and a layer beyond each of its faces, all across the specimen.
+  const dem::Record& base = *all.front().looks.record;
+  const double across = size_of(base).diameter / mean_diameter(base);
+  if (across < 2 * band_diameters) {
+    content.panels.push_back(
+        note_panel("too_small", "Displacement across the band with most cracks.",
+                   fmt::format("Not read at this scale: the specimen is {} particles across, a band with a layer on "
+                               "each side takes {:g}.",
+                               number(across, 2), 2 * band_diameters)));
+    return content;
+  }
   TextTable table{{"Case", "Angle of the band to the axis (°)", "Excess of cracks in the band (%)", "Strain (%)",
-                   "Opening (µm)", "Opening by even strain (µm)", "Slip, upper side up (µm)",
-                   "Slip by even strain (µm)", "Slip sideways (µm)", "Sideways by even strain (µm)"},
+                   "Opening (µm)", "Opening by strain of the sides (µm)", "Slip (µm)", "Slip, upper side up (µm)",
+                   "Slip upwards by strain of the sides (µm)"},
                   {}};
   std::vector<std::string> said, without;
+  std::vector<const Across*> shown;
   for (const Across& one : all) {
     std::vector<std::string> row{one.looks.label, number(one.fit.inclination, 2), number(100 * one.fit.excess(), 2),
                                  number(100 * one.strain, 3)};
-    for (const auto part : {&analysis::Jump::opening, &analysis::Jump::slip, &analysis::Jump::sideways}) {
-      row.push_back(one.jump ? micro(((*one.jump).*part).moved) : "–");
-      row.push_back(one.jump ? micro(((*one.jump).*part).even) : "–");
-    }
+    const auto length = [&](auto of) { row.push_back(one.jump ? micro(of(*one.jump)) : "–"); };
+    length([](const analysis::Jump& jump) { return jump.opening.beyond(); });
+    length([](const analysis::Jump& jump) { return jump.opening.even; });
+    length([](const analysis::Jump& jump) { return slip_of(jump); });
+    length([](const analysis::Jump& jump) { return jump.slip.beyond(); });
+    length([](const analysis::Jump& jump) { return jump.slip.even; });
     table.rows.push_back(std::move(row));
-    if (one.jump) said.push_back(jump_words(one));
-    if (!one.jump) without.push_back(one.looks.label);
+    if (one.jump) {
+      said.push_back(jump_words(one));
+      shown.push_back(&one);
+    } else {
+      without.push_back(one.looks.label);
+    }
   }
-  for (const Across* one : {&all.front(), &all.back()}) {
-    if (one == &all.back() && all.size() == 1) break;
+  if (shown.size() > 2) shown = {shown.front(), shown.back()};
+  for (const Across* one : shown)
     content.panels.push_back(
         {.id = "profile_" + one->looks.id,
          .caption = fmt::format("Displacement by distance from the middle of the band with most cracks, {:g} mean "
@@ -132,13 +152,12 @@ FigureContent displacement_jump(const StudyResult& study) {
          .alt = jump_words(*one) + ".",
          .content = profile_chart(*one),
          .per_row = 2});
-  }
   content.panels.push_back(
       {.id = "table",
-       .caption =
-           "Displacement of the layer beyond one face of the band, half as thick as the band, less that of the "
-           "layer beyond the other face; beside it what an even strain of the whole specimen would give over the "
-           "same distance. The excess is the share of the cracks in the band less its share of the volume.",
+       .caption = "Displacement of the layer beyond one face of the band, half as thick as the band, less that of the "
+                  "layer beyond the other face. What the strain of the two sides gives over the same distance is taken "
+                  "off and "
+                  "stands beside it. The excess is the share of the cracks in the band less its share of the volume.",
        .alt = "",
        .content = table,
        .per_row = 1});

@@ -487,6 +487,13 @@ FigureContent progressive_failure(const StudyResult& study) {
                                    crack_words(crack_numbers(base, all_cracks)) + " at the end.",
                             .content = cracks_chart(base)});
   content.finding = "At " + cases.front().label + ": " + found + ".";
+  const double at_published = base.value_or_nan(quantity::stress_at_strain);
+  if (study.of_a_paper && std::isfinite(at_published))
+    content.finding += fmt::format(
+        " σci is read where the axial stiffness has left its plateau by {}; at the 0.1 % strain of the published σci "
+        "the "
+        "stress is {} MPa.",
+        percent(study.scenario->real("measure.stiffness_departure"), 0), number(at_published, 3));
   const double ucs = base.value_or_nan(quantity::compressive_strength);
   const double ci = base.value_or_nan(quantity::initiation_by_stiffness);
   const double cd = base.value_or_nan(quantity::crack_damage);
