@@ -114,9 +114,9 @@ std::string axis_title(const dem::Parameter& parameter) {
   return std::string(parameter.name) + (parameter.unit.empty() ? "" : " (" + std::string(parameter.unit) + ")");
 }
 
-std::string axis_title(const dem::Quantity& quantity) {
+std::string axis_title(const dem::Quantity& quantity, std::string_view name) {
   const std::string_view unit = quantity.shown_unit();
-  return std::string(quantity.name) + (unit.empty() ? "" : " (" + std::string(unit) + ")");
+  return std::string(name.empty() ? quantity.name : name) + (unit.empty() ? "" : " (" + std::string(unit) + ")");
 }
 
 std::string parameter_words(const dem::Parameter& parameter, const dem::ParameterValue& value) {

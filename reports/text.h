@@ -49,7 +49,8 @@ std::string parameter_text(const std::variant<double, std::string>& value);
 
 /// "Confining pressure σ₃ (MPa)", "Young’s modulus E (GPa)": titles of axes and heads of columns.
 std::string axis_title(const dem::Parameter& parameter);
-std::string axis_title(const dem::Quantity& quantity);
+/// `name`: what it is called there, where that is not its name.
+std::string axis_title(const dem::Quantity& quantity, std::string_view name = {});
 /// "AR 2", "dip 45°", "σ₃ 10 MPa", "quartz"; "" where there is nothing to say.
 std::string parameter_words(const dem::Parameter& parameter, const dem::ParameterValue& value);
 

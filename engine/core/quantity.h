@@ -31,6 +31,9 @@ struct Quantity {
   double scatter = 0;             ///< relative standard deviation between seeds at draft scale; 0: not known, or none
   std::string_view tests = {};    ///< the tests that give it, with spaces between; "": every one
   std::string_view meaning = {};  ///< one sentence: how it is defined and measured
+  /// Of the largest value of a curve that a run may leave while it rises: the name where it has fallen again
+  /// (engine/analysis/peaks.h). `name` is true of either.
+  std::string_view peak_name = {};
 
   [[nodiscard]] bool family() const { return id.ends_with(".*"); }
   [[nodiscard]] std::string_view shown_unit() const { return shown.empty() ? unit : shown; }

@@ -119,7 +119,7 @@ inline constexpr Quantity compressive_strength_error{
 inline constexpr Quantity peak_strain =
     measured(dem::quantity::peak_strain, strength, "Strain at the largest stress, as measure.gauge has it.");
 inline constexpr Quantity failure_time{.id = "failure_time",
-                                       .name = "Time at which the block parts",
+                                       .name = "Time at which the main crack begins to open",
                                        .unit = "s",
                                        .shown = "10⁻² s",
                                        .factor = 100,
@@ -147,7 +147,7 @@ inline constexpr Quantity kinetic_share{.id = "kinetic_share",
                                             "In tension after D₁, over the work at that time; in compression after the "
                                             "peak, over the elastic energy of the peak."};
 inline constexpr Quantity frictional_share_at_parting{.id = "frictional_share_at_parting",
-                                                      .name = "Frictional heat when the block has parted",
+                                                      .name = "Frictional heat when the main crack has opened",
                                                       .shown = "%",
                                                       .factor = 100,
                                                       .tests = "tension",

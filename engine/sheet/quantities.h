@@ -13,20 +13,25 @@ using dem::quantity::measured;
 
 inline constexpr Quantity peak_differential_stress{
     .id = "peak_differential_stress",
-    .name = "Peak differential stress",
+    .name = "Largest differential stress by the end of the run",
     .symbol = "Δσ",
     .unit = "k",
-    .meaning = "Largest |σ_xx − σ_yy| on the walls, before the breaks of its load step, in elastic constants k."};
+    .meaning =
+        "Largest |σ_xx − σ_yy| on the walls, before the breaks of its load step, in elastic constants k. It is a peak "
+        "where the run ends a quarter below it or more.",
+    .peak_name = "Peak differential stress"};
 inline constexpr Quantity strain_at_peak{.id = "strain_at_peak",
-                                         .name = "Strain at the peak differential stress",
+                                         .name = "Strain at the largest differential stress",
                                          .shown = "%",
                                          .factor = 100,
-                                         .meaning = "Of the load step with the peak."};
+                                         .meaning = "Of the load step with the largest differential stress.",
+                                         .peak_name = "Strain at the peak differential stress"};
 inline constexpr Quantity breaks_before_peak{.id = "breaks_before_peak",
-                                             .name = "Springs broken before the peak",
+                                             .name = "Springs broken before the largest differential stress",
                                              .kind = QuantityKind::count,
                                              .of_size = true,
-                                             .meaning = "In the load steps before that of the peak."};
+                                             .meaning = "In the load steps before that of the largest stress.",
+                                             .peak_name = "Springs broken before the peak"};
 inline constexpr Quantity onset_strain{.id = "onset_strain",
                                        .name = "Strain at the first break",
                                        .shown = "%",

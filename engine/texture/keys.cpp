@@ -417,6 +417,13 @@ std::vector<Key> declare_calibration() {
 // What laboratories have measured, of the rock or of a mineral alone ("mineral[].").
 std::vector<Key> declare_measured(const std::string& of) {
   std::vector<Key> keys;
+  if (of.empty()) {
+    keys.push_back({.path = "measured.source",
+                    .type = KeyType::text,
+                    .standard = "\"\"",
+                    .affects = Affects::drawing,
+                    .help = "where the measured values come from, in a few words: stands beside them in the report"});
+  }
   const std::string whose = of.empty() ? "" : " of the mineral alone";
   for (const Measurable& one : measurables()) {
     const std::string table = of + "measured.";

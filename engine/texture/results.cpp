@@ -273,17 +273,16 @@ void add_fineness(Record& record, const Specimen& specimen, const Settings& sett
   const double across = body_of(settings).smallest() / particle;
   if (across < enough_across) {
     record.notes.push_back(
-        fmt::format("Only {:.1f} particles lie across the specimen; {:.0f} or more leave an inside that the ends and "
-                    "the surface do not reach.",
+        fmt::format("Only {:.1f} particles lie across the specimen; at least {:.0f} are needed for an interior free of "
+                    "end and surface effects.",
                     across, enough_across));
   }
   const double in_grain =
       static_cast<double>(specimen.packing.radius.size()) / static_cast<double>(specimen.seeds.radius.size());
   if (!settings.one_mineral && in_grain < enough_in_grain) {
     record.notes.push_back(
-        fmt::format("A grain has {:.1f} particles in the mean; {:.0f} or more show its shape, and what is inside and "
-                    "between grains.",
-                    in_grain, enough_in_grain));
+        fmt::format("Grains average {:.1f} particles; at least {:.0f} are needed to resolve their shape.", in_grain,
+                    enough_in_grain));
   }
 }
 

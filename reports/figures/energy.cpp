@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "engine/analysis/ledger.h"
+#include "reports/figures/energy_colours.h"
 #include "reports/text.h"
 
 namespace reports {
@@ -35,17 +35,6 @@ std::vector<double> work_of(const dem::Table& history, const std::vector<analysi
     for (std::size_t i = 0; i < work.size(); ++i) work[i] += values[i];
   }
   return work;
-}
-
-// In the order of the ledgers' shares; neighbours differ by more than 15 for every reader, and in grey.
-render::Colour share_colour(std::size_t index) {
-  constexpr std::array<render::Colour, 6> colours{{{0.612, 0.773, 0.875},    // elastic
-                                                   {0.000, 0.000, 0.000},    // kinetic
-                                                   {0.671, 0.918, 0.733},    // damping
-                                                   {0.855, 0.549, 0.129},    // friction
-                                                   {0.239, 0.408, 0.533},    // bonds broken in tension
-                                                   {0.541, 0.125, 0.125}}};  // and in shear
-  return colours[index % colours.size()];
 }
 
 /// Ends of the axes that panels share.
@@ -79,14 +68,13 @@ render::Chart ledger_chart(const dem::Table& history, const std::string& x_colum
   const auto work = work_of(history, terms);
   render::Chart chart;
   std::vector<double> base(x.size(), 0.0);
-  std::size_t shares = 0;
   for (const analysis::LedgerTerm& term : terms) {
     if (term.role != analysis::LedgerTerm::Role::share) continue;
     render::Band band{.label = term.label,
                       .x = x,
                       .low = base,
                       .high = base,
-                      .colour = share_colour(shares++),
+                      .colour = colours_of(energy_of(term.column)).area,
                       .opacity = 1,
                       .outlined = true,
                       .inside = true};
@@ -95,8 +83,11 @@ render::Chart ledger_chart(const dem::Table& history, const std::string& x_colum
     base = band.high;
     chart.bands.push_back(std::move(band));
   }
-  chart.series.push_back(
-      {.label = "Work of the boundary", .x = x, .y = scaled(work, unit.first), .colour = {0, 0, 0}, .width = 1.8});
+  chart.series.push_back({.label = "Work of the boundary",
+                          .x = x,
+                          .y = scaled(work, unit.first),
+                          .colour = colours_of(Energy::work).line,
+                          .width = 1.8});
   chart.x.title = x_title;
   chart.left.title = "Energy (" + unit.second + ")";
   chart.x.low = chart.left.low = 0;
@@ -159,8 +150,9 @@ FigureContent energy_figure(const StudyResult& study, std::string_view test, con
       continue;
     }
     kept.push_back(&item);
-    own.push_back(
-        {x_factor * largest(history->real(x_column)), largest(work_of(*history, analysis::ledger_terms(*history)))});
+    constexpr double room = 1.05;  // what falls at the end of a test does not lie on the frame
+    own.push_back({room * x_factor * largest(history->real(x_column)),
+                   largest(work_of(*history, analysis::ledger_terms(*history)))});
   }
   const std::vector<Reach> reaches = shared_reaches(own);
   const auto unit = energy_unit(own.empty() ? 0 : std::ranges::max_element(own, {}, &Reach::energy)->energy);

@@ -12,6 +12,7 @@
 #include "reports/page/abbreviations.h"
 #include "reports/page/citations.h"
 #include "reports/page/downloads.h"
+#include "reports/page/listing.h"
 #include "reports/page/page_parts.h"
 #include "reports/page/typeset.h"
 #include "reports/published/papers.h"
@@ -201,7 +202,10 @@ PageData way(const dem::Scenario& scenario, const Again& again) {
   return data;
 }
 
-void set_again(PageData& data, const dem::Scenario& scenario, const ReportOptions& options) {
+/// `printed`: on paper, in columns.
+void set_again(PageData& data, const dem::Scenario& scenario, const ReportOptions& options, bool printed) {
+  constexpr std::size_t column = 62;  // characters
+
   PageData sources{PageData::type::list};
   for (const auto& [file, place] :
        {std::pair{scenario.file(), options.again.scenario}, std::pair{scenario.included(), options.again.rock}}) {
@@ -211,7 +215,7 @@ void set_again(PageData& data, const dem::Scenario& scenario, const ReportOption
     PageData source;
     source.set("name", name);
     source.set("file", std::filesystem::path(name).filename().string());
-    source.set("text", with_short_words(text));
+    source.set("text", printed ? listing(with_short_words(text), column) : with_short_words(text));
     source.set("href", data_uri(text, "x.toml"));
     sources.push_back(source);
   }
@@ -269,7 +273,7 @@ std::string page(const StudyResult& study, const Comparisons& comparisons, const
   data.set("notes", notes);
   data.set("choices", list_of(choices));
   set_citations(data, study, options);
-  set_again(data, scenario, options);
+  set_again(data, scenario, options, images != Images::embedded);
   data.set("since", images == Images::embedded ? options.since_reference.shown : options.since_reference.printed);
   return typeset(pattern.render(data));
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <span>
 
 #include "reports/page/page_parts.h"
@@ -13,6 +14,25 @@ namespace {
 
 // In the middle of a sentence.
 std::string check_name(std::string_view id) { return id == "quasi_static" ? "quasi-static loading" : words(id); }
+
+/// A note in the words of today: records are kept when a sentence is mended.
+std::string in_present_words(std::string note) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> mended{
+      {{" or more leave an inside that the ends and the surface do not reach.",
+        " are needed for an interior free of end and surface effects."},
+       {" or more show its shape, and what is inside and between grains.", " are needed to resolve their shape."},
+       {"A grain has ", "Grains average "},
+       {" particles in the mean; ", " particles; at least "}}};
+  const auto old = [&](std::string_view part) { return note.find(part) != std::string::npos; };
+  const bool across = old(mended[0].first);
+  if (!across && !old(mended[1].first)) return note;
+  for (const auto& [before, now] : mended) {
+    if (const std::size_t at = note.find(before); at != std::string::npos) note.replace(at, before.size(), now);
+  }
+  if (const std::size_t at = note.find("specimen; "); across && at != std::string::npos)
+    note.insert(at + std::string_view("specimen; ").size(), "at least ");
+  return note;
+}
 
 }  // namespace
 
@@ -86,7 +106,8 @@ PageData notes_data(const StudyResult& study) {
   std::vector<std::pair<std::string, std::vector<std::string>>> said;  // each note, with the cases that have it
   for (const CaseResult& result : study.cases) {
     if (!result.record) continue;
-    for (const std::string& note : result.record->notes) {
+    for (const std::string& kept : result.record->notes) {
+      const std::string note = in_present_words(kept);
       auto same = std::ranges::find(said, note, [](const auto& one) { return one.first; });
       if (same == said.end()) same = said.insert(said.end(), {note, {}});
       same->second.push_back(result.id);

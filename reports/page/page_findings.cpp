@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "engine/analysis/peaks.h"
 #include "engine/model/quantities.h"
 #include "reports/page/page_cases.h"
 #include "reports/page/page_parts.h"
@@ -77,6 +78,13 @@ std::string said_of(const StudyResult& study, const Repeats& repeats, std::strin
   return shown_result(quantity, value) + (unit.empty() ? "" : " " + std::string(unit));
 }
 
+/// What a result of a column is called in the middle of a sentence.
+std::string name_of(const StudyResult& study, const Repeats& repeats, std::string_view id) {
+  std::vector<const dem::Record*> records;
+  for (const CaseResult* result : repeats) records.push_back(result->record);
+  return lower(std::string(analysis::name_of(dem::find_quantity(study.quantities, id), records)));
+}
+
 /// The results of one case.
 std::vector<std::string> told_of(const StudyResult& study, const Repeats& repeats,
                                  std::span<const std::string_view> ids) {
@@ -85,7 +93,7 @@ std::vector<std::string> told_of(const StudyResult& study, const Repeats& repeat
   for (const std::string_view id : ids) {
     if (told.size() == most) break;
     const std::string said = said_of(study, repeats, id);
-    if (!said.empty()) told.push_back(lower(std::string(dem::find_quantity(study.quantities, id).name)) + " " + said);
+    if (!said.empty()) told.push_back(name_of(study, repeats, id) + " " + said);
   }
   return told;
 }
@@ -95,15 +103,17 @@ std::vector<std::string> told_of_each(const StudyResult& study, const std::vecto
   std::vector<std::string> told;
   std::vector<bool> done(columns.size(), false);
   for (const std::string_view id : telling) {
-    std::vector<std::string> values;
+    std::vector<std::pair<std::string, std::vector<std::string>>> named;  // some may be peaks, and others not
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const std::string said = done[i] ? "" : said_of(study, columns[i], id);
       if (said.empty()) continue;
-      values.push_back(said + " (" + case_label(study, *columns[i].front()) + ")");
+      const std::string name = name_of(study, columns[i], id);
+      auto group = std::ranges::find(named, name, [](const auto& one) { return one.first; });
+      if (group == named.end()) group = named.insert(named.end(), {name, {}});
+      group->second.push_back(said + " (" + case_label(study, *columns[i].front()) + ")");
       done[i] = true;
     }
-    if (!values.empty())
-      told.push_back(lower(std::string(dem::find_quantity(study.quantities, id).name)) + " " + listed(values));
+    for (const auto& [name, values] : named) told.push_back(name + " " + listed(values));
   }
   return told;
 }
@@ -131,16 +141,24 @@ std::string headline(const StudyResult& study) {
   return tests.empty() ? "" : joined(tests, "; ") + ".";
 }
 
-// Which figures agree with what is published, which do not.
+// Which figures agree with what is published, which are as one expects, and which are neither.
 PageData agreement_parts(const std::vector<DrawnFigure>& figures, const std::string& elsewhere) {
+  struct Group {
+    Agreement agreement;
+    bool published, expected;
+    const char* what;
+  };
   PageData parts = new_list();
   bool first = true;
-  for (const auto& [agreement, what] : {std::pair{Agreement::agrees, "In agreement with what is published:"},
-                                        {Agreement::disagrees, "In disagreement:"},
-                                        {Agreement::undecided, "Undecided:"}}) {
+  for (const auto& [agreement, published, expected, what] :
+       {Group{Agreement::agrees, true, false, "In agreement with what is published:"},
+        Group{Agreement::disagrees, true, false, "In disagreement:"},
+        Group{Agreement::agrees, false, true, "As expected:"},
+        Group{Agreement::disagrees, false, true, "Not as expected:"},
+        Group{Agreement::undecided, true, true, "Undecided:"}}) {
     std::vector<const DrawnFigure*> those;
     for (const DrawnFigure& figure : figures) {
-      if (figure.agreement == agreement && !figure.expected) those.push_back(&figure);
+      if (figure.agreement == agreement && (figure.expected ? expected : published)) those.push_back(&figure);
     }
     if (those.empty()) continue;
     PageData links = new_list();
@@ -189,9 +207,15 @@ PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
   if (const std::vector<LaboratoryRow> rows = beside_laboratory(study); !rows.empty()) {
     const bool outside = std::ranges::count(rows, Verdict::missed, &LaboratoryRow::verdict) > 0;
     const bool within = std::ranges::count(rows, Verdict::met, &LaboratoryRow::verdict) > 0;
-    add(laboratory_tally(rows), outside ? "bad" : within ? "good" : "plain");
+    const bool small = is_small(*study.scenario);
+    add(joined_notes(
+            {laboratory_tally(rows, small ? study.scenario->scale() : ""), laboratory_source(*study.scenario)}),
+        small     ? "plain"
+        : outside ? "bad"
+        : within  ? "good"
+                  : "plain");
   }
-  if (std::ranges::any_of(figures, [](const DrawnFigure& f) { return f.agreement && !f.expected; })) {
+  if (std::ranges::any_of(figures, [](const DrawnFigure& f) { return f.agreement.has_value(); })) {
     const bool judged = comparisons.scale.empty() || comparisons.scale == study.scenario->scale();
     add("", "plain", agreement_parts(figures, judged ? "" : study.scenario->scale()));
   }

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "engine/analysis/ledger.h"
+#include "engine/analysis/peaks.h"
 #include "engine/model/quantities.h"
 #include "reports/page/page_cases.h"
 #include "reports/page/page_parts.h"
@@ -147,6 +148,17 @@ std::string result_text(const Repeats& column, std::string_view id, const dem::Q
   return mean_text(quantity, spread, powers);
 }
 
+// What a result is called in a table of those columns.
+std::string_view name_in(const dem::Quantity& quantity, std::span<const Repeats> columns) {
+  std::vector<const dem::Record*> records;
+  for (const Repeats& column : columns) {
+    for (const CaseResult* result : column) {
+      if (result->record->has(quantity)) records.push_back(result->record);
+    }
+  }
+  return analysis::name_of(quantity, records);
+}
+
 // Of those that figures do not show: families have as many members as the specimen has groups.
 std::vector<std::string> results_of(const std::vector<const CaseResult*>& group, const StudyResult& study,
                                     bool diagnostics) {
@@ -188,7 +200,7 @@ PageData results_data(const StudyResult& study, bool diagnostics) {
           return value && needs_powers(quantity.factor * *value);
         });
         for (const Repeats& column : shown) values.push_back(result_text(column, id, quantity, powers));
-        rows.push_back(table_row(axis_title(quantity), values));
+        rows.push_back(table_row(axis_title(quantity, name_in(quantity, shown)), values));
       }
       PageData table;
       table.set("test", capital(test.empty() ? "results" : words(test)) + ".");

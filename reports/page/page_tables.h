@@ -9,7 +9,7 @@
 namespace reports {
 
 /// Tables of so few rows stay whole in print.
-[[nodiscard]] inline bool is_short(std::size_t rows) { return rows <= 8; }
+[[nodiscard]] inline bool is_short(std::size_t rows) { return rows <= 12; }
 
 [[nodiscard]] inline PageData new_list() { return PageData{PageData::type::list}; }
 

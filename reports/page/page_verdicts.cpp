@@ -15,7 +15,10 @@ namespace {
 
 /// "46.794 × 10⁶ N/m", "206.8 MPa".
 std::string with_unit(const std::string& amount, const std::string& unit) {
-  return unit.empty() ? amount : amount + (unit.starts_with("10") ? " × " : " ") + unit;
+  if (unit.empty()) return amount;
+  std::string whole(unit);  // not broken behind a stroke
+  for (std::size_t at = 0; (at = whole.find('/', at)) != std::string::npos; at += 4) whole.insert(at + 1, "\u2060");
+  return amount + (unit.starts_with("10") ? " × " : " ") + whole;
 }
 
 std::string published_text(const Comparison& row) {
@@ -36,9 +39,10 @@ std::string computed_text(const Comparison& row) {
     const bool whole = std::floor(*published) == *published && std::floor(ours) == ours;
     if (whole && row.unit.empty()) return count(ours);
     const std::string text = shortest(*published);
+    const std::string significant = text.substr(std::min(text.find_first_of("123456789"), text.size()));
     const auto figures =
-        static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return c >= '0' && c <= '9'; }));
-    if (std::abs(*published) >= 1) digits = std::max(digits, figures);
+        static_cast<std::size_t>(std::ranges::count_if(significant, [](char c) { return c >= '0' && c <= '9'; }));
+    digits = std::max(digits, figures);
     // Of a count, ours is a mean of seeds: no more than one decimal.
     if (row.unit.empty() && std::floor(*published) == *published && std::abs(*published) >= 100 && std::abs(ours) >= 1)
       digits = std::min(digits, static_cast<std::size_t>(std::floor(std::log10(std::abs(ours)))) + 2);
@@ -156,12 +160,13 @@ PageData laboratory_data(const StudyResult& study) {
   PageData list = new_list();
   const std::vector<LaboratoryRow> found = beside_laboratory(study);
   if (found.empty()) return list;
+  const bool small = is_small(*study.scenario);  // neutral badges
   PageData rows = new_list();
   for (const LaboratoryRow& row : found) {
     PageData item;
     item.set("quantity", laboratory_name(row.number));
     item.set("measured", laboratory_text(row.number));
-    item.set("ours", row.ours ? number(row.ours->value, 4) : "–");
+    item.set("ours", row.ours ? number(row.ours->value, 3) : "–");
     std::string detail;
     if (row.ours && row.seeds > 0) detail = row.seeds == 1 ? "one seed" : fmt::format("mean of {} seeds", row.seeds);
     if (row.ours && row.ours->has_interval()) {
@@ -172,14 +177,16 @@ PageData laboratory_data(const StudyResult& study) {
     item.set("has_detail", !detail.empty());
     item.set("deviation", row.ours ? laboratory_deviation(row) : std::string());
     item.set("verdict", std::string(laboratory_word(row.verdict)));
-    item.set("verdict_class", row.verdict == Verdict::met         ? "met"
+    item.set("verdict_class", small                               ? "open"
+                              : row.verdict == Verdict::met       ? "met"
                               : row.verdict == Verdict::missed    ? "missed"
                               : row.verdict == Verdict::undecided ? "undecided"
                                                                   : "open");
     rows.push_back(item);
   }
   PageData block;
-  block.set("counts", laboratory_tally(found));
+  block.set("counts", laboratory_tally(found, small ? study.scenario->scale() : ""));
+  block.set("source", laboratory_source(*study.scenario));
   block.set("rows", rows);
   list.push_back(block);
   return list;

@@ -70,7 +70,12 @@ double peak_time(const Record& record) {
   return record.table("history").real(
       "time")[static_cast<std::size_t>(std::ranges::max_element(stress) - stress.begin())];
 }
+double parting_time(const Record& record) {
+  if (pieces_of(record) < 2) throw std::out_of_range("the block stays in one part");
+  return 100 * result_of(record, "failure_time");
+}
 constexpr std::array lattice{
+    Reading{"parting_time", parting_time},  // in 10⁻² s
     Reading{"pieces", [](const Record& r) { return static_cast<double>(pieces_of(r)); }},
     Reading{"first_at_boundary", [](const Record& r) { return first_at_boundary(r); }},
     Reading{"opened_below_theory",

@@ -118,7 +118,14 @@ std::string laboratory_name(const LaboratoryNumber& number) {
   return text;
 }
 
-std::string laboratory_tally(const std::vector<LaboratoryRow>& rows) {
+bool is_small(const dem::Scenario& scenario) { return scenario.scale() == "smoke" || scenario.scale() == "draft"; }
+
+std::string laboratory_source(const dem::Scenario& scenario) {
+  const std::string source = scenario.text("measured.source");
+  return source.empty() ? source : "Where they come from: " + source + ".";
+}
+
+std::string laboratory_tally(const std::vector<LaboratoryRow>& rows, const std::string& scale) {
   if (rows.empty()) return {};
   const auto counted = [&](Verdict verdict) { return std::ranges::count(rows, verdict, &LaboratoryRow::verdict); };
   std::vector<std::string> parts;
@@ -133,8 +140,10 @@ std::string laboratory_tally(const std::vector<LaboratoryRow>& rows) {
   say(Verdict::undecided, "undecided", "undecided");
   say(Verdict::not_judged, "without a stated uncertainty", "without a stated uncertainty");
   say(Verdict::not_computed, "not tested here", "not tested here");
-  return rows.size() == 1 ? fmt::format("Of one value measured in the laboratory {}.", listed(parts))
-                          : fmt::format("Of {} values measured in the laboratory {}.", rows.size(), listed(parts));
+  const std::string where = scale.empty() ? "Of " : "At " + scale + " scale, of ";
+  return where + (rows.size() == 1
+                      ? fmt::format("one value measured in the laboratory {}.", listed(parts))
+                      : fmt::format("{} values measured in the laboratory {}.", rows.size(), listed(parts)));
 }
 
 }  // namespace reports

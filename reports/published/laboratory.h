@@ -35,6 +35,11 @@ std::string laboratory_text(const LaboratoryNumber& number, bool with_unit = tru
 std::string laboratory_name(const LaboratoryNumber& number);
 
 /// "Of 6 values measured in the laboratory 3 are within their uncertainty, 2 outside and 1 undecided."
-std::string laboratory_tally(const std::vector<LaboratoryRow>& rows);
+/// `scale`: named where the specimen is too small to judge the rock by.
+std::string laboratory_tally(const std::vector<LaboratoryRow>& rows, const std::string& scale = {});
+/// Whether the scale of a study is one of those that try a rock out: what it says is no verdict on the rock.
+bool is_small(const dem::Scenario& scenario);
+/// "Where they come from: ...", by the scenario's key; "" where it does not say.
+std::string laboratory_source(const dem::Scenario& scenario);
 
 }  // namespace reports

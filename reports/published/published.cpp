@@ -152,8 +152,11 @@ void compare_greater(const Terms& terms, const Json& of, const Json& than, Compa
   row.estimate = difference;
   row.outcome = judge_sign(difference, 1, terms.by_chance());
   row.computed = std::string(difference.value > 0 ? "greater" : difference.value < 0 ? "smaller" : "equal");
-  row.detail = short_number(analysis::spread(terms.values(of)).mean) + " against " +
-               short_number(analysis::spread(terms.values(than)).mean);
+  const double one = analysis::spread(terms.values(of)).mean, other = analysis::spread(terms.values(than)).mean;
+  // One notation for both.
+  const bool powers = needs_powers(one) || needs_powers(other);
+  const auto text = [&](double value) { return powers ? scientific(value, 4) : short_number(value); };
+  row.detail = text(one) + " against " + text(other);
   if (difference.has_interval()) {
     row.detail += fmt::format("; difference {} ({})", number(difference.value, 2), interval_text(difference, 2));
   } else if (terms.by_chance()) {
@@ -221,7 +224,9 @@ void evaluate(const StudyResult& study, const Terms& terms, const Json& entry, c
       compare_greater(terms, term, entry.at("than"), row);
     }
     row.verdict = elsewhere ? Verdict::not_judged : row.outcome;
-    if (elsewhere && row.kind == "value" && terms.of_size(term)) {
+    // None is none in a specimen of any size.
+    const bool none = std::get_if<double>(&row.published) && std::get<double>(row.published) == 0;
+    if (elsewhere && row.kind == "value" && !none && terms.of_size(term)) {
       row.deviation.reset();
       row.detail += std::string(row.detail.empty() ? "" : "; ") + "grows with the specimen: not compared at this scale";
     }
@@ -240,7 +245,9 @@ void compare_entry(const StudyResult& study, const Terms& terms, const Paper& pa
   row.why = declared.why;
   row.of = declared.of;
   std::vector<Comparison> all = {row};
-  evaluate(study, terms, entry, entry.at("of"), all.front());
+  // A formula beside a formula: any case has the parameters that it is made of.
+  const Terms any_case(study, Terms::Lacking::taken_from_any);
+  evaluate(study, row.role == Role::theory ? any_case : terms, entry, entry.at("of"), all.front());
   for (const Json& reading : entry.value("readings", Json::array())) {
     const Json& term = reading.at("of");
     if (!has_cases(terms, entry, term)) continue;

@@ -65,7 +65,7 @@ double combined(const Json& term, const std::vector<double>& parts) {
 
 }  // namespace
 
-Terms::Terms(const StudyResult& study) : study_(study) {
+Terms::Terms(const StudyResult& study, Lacking lacking) : study_(study), lacking_(lacking) {
   if (study.scenario)
     usual_ = dem::analysis::Usual{study.parameters, dem::usual_values(study.parameters, *study.scenario)};
   for (const CaseResult& one : study.cases) {
@@ -89,7 +89,13 @@ dem::Parameters Terms::named(const Json& term, const dem::Parameters& at) const 
 }
 
 std::vector<const CaseResult*> Terms::cases(const Json& term, const dem::Parameters& at) const {
-  return dem::analysis::select(study_.cases, {named(term, at)}, usual_);
+  auto found = dem::analysis::select(study_.cases, {named(term, at)}, usual_);
+  if (!found.empty() || lacking_ == Lacking::not_computed || !term.contains("of")) return found;
+  const std::string id = term.at("of").get<std::string>();
+  for (const CaseResult& one : study_.cases) {
+    if (one.record && one.record->find_result(id)) found.push_back(&one);
+  }
+  return found;
 }
 
 bool Terms::has_cases(const Json& term, const dem::Parameters& at) const {

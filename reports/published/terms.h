@@ -29,7 +29,10 @@ struct NotComputed {
 /// Evaluates the terms of one study.
 class Terms {
  public:
-  explicit Terms(const StudyResult& study);
+  /// What a term gives whose case the study does not have: nothing, or what another case has, which is for numbers that do not
+  /// depend on it.
+  enum class Lacking { not_computed, taken_from_any };
+  explicit Terms(const StudyResult& study, Lacking lacking = Lacking::not_computed);
 
   /// Whether the study has every case that a term needs, run or not, at a place of the swept parameters.
   [[nodiscard]] bool has_cases(const nlohmann::json& term, const dem::Parameters& at = {}) const;
@@ -62,6 +65,7 @@ class Terms {
   [[nodiscard]] dem::Parameters named(const nlohmann::json& term, const dem::Parameters& at) const;
 
   const StudyResult& study_;
+  Lacking lacking_;
   analysis::Usual usual_;
   std::vector<double> seeds_;  ///< of the study, in report order
 };

@@ -1,16 +1,21 @@
 // The small parts of a report: words and numbers, CSV, sampling, scale bars, summary.json, links.
 #include <doctest/doctest.h>
 
+#include <toml++/toml.h>
+
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "engine/analysis/ledger.h"
+#include "engine/core/files.h"
 #include "engine/texture/quantities.h"
 #include "reports/output/csv.h"
 #include "reports/output/drawing.h"
 #include "reports/output/pdf.h"
 #include "reports/output/summary.h"
+#include "reports/page/listing.h"
 #include "reports/page/page.h"
 #include "reports/page/page_parts.h"
 #include "reports/page/typeset.h"
@@ -340,4 +345,36 @@ TEST_CASE("charts beside each other have one height, and so have their frames") 
   CHECK(few.foot > 0);
   CHECK(many.foot == 0);
   CHECK(render::plot_height(few) == doctest::Approx(render::plot_height(many)).epsilon(0.01));
+}
+
+TEST_CASE("a listing that was broken into lines says the same, and none of its comments ends") {
+  const auto longest = [](const std::string& text) {
+    std::size_t most = 0;
+    for (std::size_t begin = 0; begin < text.size();) {
+      const std::size_t end = text.find('\n', begin);
+      most = std::max(most, end - begin);
+      begin = end + 1;
+    }
+    return most;
+  };
+  const std::string made =
+      "# one two three four five six seven eight nine ten\n"
+      "title = \"one two three four five # six seven eight\"  # a comment that goes on and on and on\n"
+      "list = [\"one, two\", 'three # four', \"five\",  # six seven eight nine ten eleven\n"
+      "  { a = 1, b = 2 }, 3]\n"
+      "text = \"\"\"\nas it is, with # and all, however long it may be: nothing is broken here\n\"\"\"\n";
+  const std::string broken = reports::listing(made, 30);
+  CHECK(toml::parse(broken) == toml::parse(made));
+  CHECK(broken.find("# one two three four five six\n# seven eight nine ten\n") == 0);
+  for (const auto& file :
+       std::filesystem::recursive_directory_iterator(std::filesystem::path(DEM_SOURCE_DIR) / "scenarios")) {
+    if (file.path().extension() != ".toml") continue;
+    CAPTURE(file.path().string());
+    const std::string text = dem::read_file(file.path());
+    for (const std::size_t width : {40U, 62U}) {
+      const std::string shown = reports::listing(text, width);
+      CHECK(toml::parse(shown) == toml::parse(text));
+      CHECK(longest(shown) <= width + 20);  // words that nothing breaks
+    }
+  }
 }

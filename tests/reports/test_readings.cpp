@@ -6,6 +6,7 @@
 
 #include "engine/analysis/breaking.h"
 #include "engine/analysis/cracking.h"
+#include "engine/analysis/peaks.h"
 
 namespace {
 
@@ -124,4 +125,28 @@ TEST_CASE("falls, straightness and what is left of energies") {
   CHECK(kinetic_left(r, 3) == 0.25);
   CHECK(breaking_after(r, 4) == 0.25);
   CHECK(first_at_boundary(r) == 1);  // all are outside
+}
+
+TEST_CASE("a stress that still rises at the end of a run has no peak") {
+  const dem::Quantity largest{.id = "largest", .name = "Largest stress", .peak_name = "Peak stress"};
+  const auto sheet = [](const Reals& loaded, const Reals& left) {
+    Record r;
+    Table h{"history", {}, {}};
+    h.add("loaded_stress_xx", "1", loaded);
+    h.add("loaded_stress_yy", "1", Reals(loaded.size(), 0.0));
+    h.add("stress_xx", "1", left);
+    h.add("stress_yy", "1", Reals(left.size(), 0.0));
+    r.tables = {h};
+    return r;
+  };
+  using namespace dem::analysis;
+  // A load step that takes a third and gives it back is no peak; neither is a last step that takes a tenth.
+  const Record rising = sheet({1, 2, 3, 4}, {1, 1.3, 3, 3.6}), fallen = sheet({1, 2, 4, 3}, {1, 2, 3, 2.9});
+  CHECK_FALSE(passed_peak(rising));
+  CHECK(passed_peak(fallen));
+  CHECK(passed_peak(block()));
+  const std::vector<const Record*> both{&fallen, &rising}, one{&fallen};
+  CHECK(name_of(largest, both) == "Largest stress");
+  CHECK(name_of(largest, one) == "Peak stress");
+  CHECK(name_of({.id = "other", .name = "Other"}, one) == "Other");
 }

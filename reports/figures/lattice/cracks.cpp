@@ -181,8 +181,13 @@ Front front_of(const dem::Record& r) {
   return f;
 }
 
+std::string none_or(const dem::Quantity& number_of, const dem::Record& r) {
+  const double number = r.value(number_of);
+  return number == 0 ? "none" : count(number);
+}
+
 std::string speed_text(double speed) {
-  return std::isfinite(speed) ? number(speed, 3) + " m/s" : "not measured (too few bonds)";
+  return std::isfinite(speed) ? number(speed, 4) + " m/s" : "no speed (it advances in fewer than three steps)";
 }
 
 }  // namespace
@@ -207,7 +212,7 @@ FigureContent crack_maps(const StudyResult& study) {
                                      "Bonds that broke at the failure, by time since C₁."));
     said.push_back(fmt::format("in compression {} bonds opened and {} slid",
                                count(pressed->value(quantity::cracks_opening)),
-                               count(pressed->value(quantity::cracks_sliding))));
+                               none_or(quantity::cracks_sliding, *pressed)));
   }
   for (const dem::Record* r : records_of(study, "tension")) {
     if (!has_failure(*r)) {
@@ -222,7 +227,7 @@ FigureContent crack_maps(const StudyResult& study) {
                                      "Bonds that opened, seen along y."));
     content.panels.push_back(halves(*r, "tension_halves_" + planes, "Tension, planes: " + planes));
     said.push_back(fmt::format("in tension with {} planes {} bonds opened and {} slid", planes,
-                               count(r->value(quantity::cracks_opening)), count(r->value(quantity::cracks_sliding))));
+                               count(r->value(quantity::cracks_opening)), none_or(quantity::cracks_sliding, *r)));
   }
   if (!said.empty()) {
     content.finding = sentence(said);
@@ -280,7 +285,7 @@ FigureContent crack_front(const StudyResult& study) {
          .alt = fmt::format("The farthest opening runs at {}.", speed_text(f.speed)),
          .content = chart});
     said.push_back(fmt::format("{} planes: {} by the crack front, {} m/s by the width over the time from D₁ to D₂",
-                               planes, speed_text(f.speed), number(r->value_or_nan(quantity::crack_speed), 3)));
+                               planes, speed_text(f.speed), number(r->value_or_nan(quantity::crack_speed), 4)));
   }
   if (said.empty()) return content;
   content.finding = sentence(said);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include "engine/analysis/breaking.h"
+#include "reports/figures/energy_colours.h"
 #include "reports/figures/lattice/parts.h"
 #include "reports/figures/table.h"
 #include "reports/text.h"
@@ -12,7 +14,7 @@
 namespace reports::lattice {
 namespace {
 
-constexpr int inset_height = 340;  // of a chart with another one in it
+constexpr int inset_height = 300;  // of a chart with another one in it
 
 // Time of the sample of largest stress.
 double peak_time(const dem::Table& h) {
@@ -75,12 +77,19 @@ TensionMarks tension_marks(const dem::Record& r) {
   return m;
 }
 
+render::Series of(Energy energy, render::Series series, const std::string& label,
+                  render::Line line = render::Line::solid, double width = 1.8) {
+  series = styled(std::move(series), label, 0, line, width);
+  series.colour = colours_of(energy).line;
+  return series;
+}
+
 // Elastic energy, kinetic energy, heat and work in a window of time, in microseconds since its zero.
 std::vector<render::Series> energies(const dem::Table& h, double from, double to, double zero, double factor) {
-  return {styled(window_sum(h, elastic_columns(), from, to, zero, factor), "elastic", 5),
-          styled(window(h, "kinetic", from, to, zero, factor), "kinetic", 1, render::Line::dash_dot),
-          styled(window_sum(h, heat_columns(), from, to, zero, factor), "heat", 2, render::Line::dot),
-          styled(window(h, "work", from, to, zero, factor), "work", 0, render::Line::dash)};
+  return {of(Energy::elastic, window_sum(h, elastic_columns(), from, to, zero, factor), "elastic"),
+          of(Energy::kinetic, window(h, "kinetic", from, to, zero, factor), "kinetic", render::Line::dash_dot),
+          of(Energy::heat, window_sum(h, heat_columns(), from, to, zero, factor), "heat", render::Line::dot),
+          of(Energy::work, window(h, "work", from, to, zero, factor), "work", render::Line::dash)};
 }
 
 render::Chart heats(const dem::Record& r, double from, double to, double zero,
@@ -91,14 +100,16 @@ render::Chart heats(const dem::Record& r, double from, double to, double zero,
   chart.x.title = "Time since " + marks.front().second + " (µs)";
   chart.left.title = "Heat (" + unit.name + ")";
   chart.series = {
-      styled(window_sum(h, heat_columns(), from, to, zero, unit.factor), "total", 4, render::Line::solid, 2.4),
-      styled(window(h, "viscous_heat", from, to, zero, unit.factor), "viscous", 5, render::Line::dash),
-      styled(window_sum(h, {"breaking_heat_normal", "breaking_heat_shear"}, from, to, zero, unit.factor), "breaking",
-             0),
-      styled(window(h, "breaking_heat_normal", from, to, zero, unit.factor), "breaking, normal", 3,
-             render::Line::dash_dot),
-      styled(window(h, "breaking_heat_shear", from, to, zero, unit.factor), "breaking, shear", 1, render::Line::dot),
-      styled(window(h, "frictional_heat", from, to, zero, unit.factor), "frictional", 2, render::Line::dash_dot)};
+      of(Energy::heat, window_sum(h, heat_columns(), from, to, zero, unit.factor), "total", render::Line::solid, 2.4),
+      of(Energy::damping, window(h, "viscous_heat", from, to, zero, unit.factor), "viscous", render::Line::dash),
+      of(Energy::breaking, window_sum(h, {"breaking_heat_normal", "breaking_heat_shear"}, from, to, zero, unit.factor),
+         "breaking"),
+      of(Energy::tension, window(h, "breaking_heat_normal", from, to, zero, unit.factor), "breaking, normal",
+         render::Line::dash_dot),
+      of(Energy::shear, window(h, "breaking_heat_shear", from, to, zero, unit.factor), "breaking, shear",
+         render::Line::dot),
+      of(Energy::friction, window(h, "frictional_heat", from, to, zero, unit.factor), "frictional",
+         render::Line::dash_dot)};
   for (const auto& [time, label] : marks) chart.marks.push_back(upright(1e6 * (time - zero), label));
   const double last = 1e6 * (to - zero);
   if (published_end < 4 * last) {
@@ -111,11 +122,43 @@ render::Chart heats(const dem::Record& r, double from, double to, double zero,
 
 }  // namespace
 
+namespace {
+
+// From before the first opening to beyond A1.
+render::Chart opening_chart(const dem::Record& r, const render::Series& curve) {
+  render::Chart chart;
+  chart.x.title = "Axial strain (10⁻³)";
+  chart.left.title = "Axial stress (MPa)";
+  const double a1 = 1e3 * r.value_or_nan(quantity::a1_strain), stress = r.value_or_nan(quantity::a1_stress),
+               first = r.value_or_nan(quantity::first_opening);
+  const auto at_first = std::ranges::find_if(curve.y, [=](double y) { return y >= first; });
+  if (at_first == curve.y.end()) return chart;
+  const double begin = curve.x[static_cast<std::size_t>(at_first - curve.y.begin())];
+  chart.x.low = 0.9 * std::min(begin, a1), chart.x.high = 1.4 * a1;
+  chart.left.low = 0.9 * std::min(first, r.value_or_nan(quantity::a1_stress_after));
+  chart.left.high = stress + 0.25 * (stress - *chart.left.low);
+  render::Series part = curve;
+  part.x.clear();
+  part.y.clear();
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    if (curve.x[i] < *chart.x.low || curve.x[i] > *chart.x.high) continue;
+    if (curve.y[i] < *chart.left.low || curve.y[i] > *chart.left.high) continue;
+    part.x.push_back(curve.x[i]);
+    part.y.push_back(curve.y[i]);
+  }
+  chart.series = {part};
+  chart.marks = {dot(a1, stress, "A₁"), dot(begin, first, "first")};
+  chart.legend = render::Chart::Legend::none;
+  return chart;
+}
+
+}  // namespace
+
 FigureContent stress_strain(const StudyResult& study) {
   FigureContent content;
   content.statement =
       "Stress rises linearly to A₁, where opening cracks form and stress falls; it rises again to the strength A₂, "
-      "where the block fails in sliding mode. Some bonds at the boundary fail before C_open is reached (inset).";
+      "where the block fails in sliding mode. Some bonds at the boundary fail before C_open is reached (b).";
   content.rows = {"opening_before_sliding", "opening_below_theory", "drop_at_a1"};
   if (auto missing = missing_cases(study, "compression")) content.panels.push_back(*missing);
   const dem::Record* r = main_record(study, "compression");
@@ -143,40 +186,28 @@ FigureContent stress_strain(const StudyResult& study) {
                          .y = r->value(quantity::opening_stress_theory),
                          .label = "C_{open} (Eq. 8)",
                          .colour = {0.4, 0.4, 0.4}});
-  render::Chart inset;
-  inset.x.title = "Strain (10⁻³)";
-  inset.left.title = "MPa";
-  const double far = 2.2 * 1e3 * r->value_or_nan(quantity::a1_strain);
-  render::Series part = curve;
-  part.x.clear();
-  part.y.clear();
-  for (std::size_t i = 0; i < curve.x.size() && curve.x[i] < far; ++i) {
-    part.x.push_back(curve.x[i]);
-    part.y.push_back(curve.y[i]);
-  }
-  inset.series = {part};
-  inset.marks.push_back(dot(1e3 * r->value_or_nan(quantity::a1_strain), r->value_or_nan(quantity::a1_stress), "A₁"));
-  inset.legend = render::Chart::Legend::none;
-  chart.insets.push_back({{inset}, {0.62, 0.10, 0.30, 0.34}});
-  chart.height = inset_height;
   chart.legend = render::Chart::Legend::none;
-  content.panels.push_back(
-      {.id = "",
-       .caption =
-           count(r->value(quantity::particles)) + " elements in compression; the inset enlarges the first opening.",
-       .alt = fmt::format(
-           "A1 at {} MPa falls to {}; the peak A2 is {} MPa at a strain of {}.",
-           number(r->value_or_nan(quantity::a1_stress), 3), number(r->value_or_nan(quantity::a1_stress_after), 3),
-           number(r->value_or_nan(quantity::compressive_strength), 4), number(r->value(quantity::peak_strain), 3)),
-       .content = chart,
-       .per_row = 1});
+  content.panels.push_back({.id = "whole",
+                            .caption = count(r->value(quantity::particles)) + " elements in compression.",
+                            .alt = fmt::format("A1 at {} MPa falls to {}; the peak A2 is {} MPa at a strain of {}.",
+                                               number(r->value_or_nan(quantity::a1_stress), 3),
+                                               number(r->value_or_nan(quantity::a1_stress_after), 3),
+                                               number(r->value_or_nan(quantity::compressive_strength), 3),
+                                               number(r->value(quantity::peak_strain), 3)),
+                            .content = chart});
+  content.panels.push_back({.id = "opening",
+                            .caption = "The first opening of a bond (first) and A₁, enlarged.",
+                            .alt = fmt::format("The first bond opens at {} MPa, most open at {} MPa.",
+                                               number(r->value_or_nan(quantity::first_opening), 3),
+                                               number(r->value_or_nan(quantity::a1_stress), 3)),
+                            .content = opening_chart(*r, curve)});
   content.finding = fmt::format(
-      "Bonds open first at {} MPa, at the boundary; the largest opening, A₁, is at {} MPa and lets stress drop to {} "
-      "MPa. "
-      "Bonds slide first at {} MPa; the strength A₂ is {} MPa at a strain of {}.",
+      "The first bonds open at {} MPa, at the boundary. Most open at A₁, at {} MPa, and the stress drops to {} MPa. "
+      "The "
+      "first bonds slide at {} MPa; the strength A₂ is {} MPa, at a strain of {} %.",
       number(r->value_or_nan(quantity::first_opening), 3), number(r->value_or_nan(quantity::a1_stress), 3),
-      number(r->value_or_nan(quantity::a1_stress_after), 3), number(r->value_or_nan(quantity::first_sliding), 4),
-      number(r->value_or_nan(quantity::compressive_strength), 4), number(r->value(quantity::peak_strain), 3));
+      number(r->value_or_nan(quantity::a1_stress_after), 3), number(r->value_or_nan(quantity::first_sliding), 3),
+      number(r->value_or_nan(quantity::compressive_strength), 3), number(100 * r->value(quantity::peak_strain), 3));
   return content;
 }
 
@@ -200,6 +231,7 @@ FigureContent energy_compression(const StudyResult& study) {
   chart.x.title = "Time (µs)";
   chart.left.title = "Energy (" + unit.name + ")";
   chart.series = energies(h, 0, 1e9, 0, unit.factor);
+  chart.x.low = 0, chart.x.high = 1.05e6 * h.real("time").back();
   for (const auto& [time, label] : {std::pair{m.a1, "A₁"}, {m.a2, "A₂"}, {m.a3, "A₃"}}) {
     chart.marks.push_back(dot(1e6 * time, unit.factor * value_at(h, elastic_columns(), time), label));
   }
@@ -208,7 +240,7 @@ FigureContent energy_compression(const StudyResult& study) {
   const Unit small = unit_of(h, {"kinetic"});
   inset.x.title = "Time since C₁ (µs)";
   inset.left.title = "Kinetic (" + small.name + ")";
-  inset.series = {styled(window(h, "kinetic", from, to, m.c1, small.factor), "", 1)};
+  inset.series = {of(Energy::kinetic, window(h, "kinetic", from, to, m.c1, small.factor), "")};
   inset.legend = render::Chart::Legend::none;
   chart.insets.push_back({{inset}, {0.12, 0.34, 0.42, 0.52}});
   chart.legend = render::Chart::Legend::below;
@@ -250,6 +282,7 @@ FigureContent energy_tension(const StudyResult& study) {
     chart.x.title = "Time (µs)";
     chart.left.title = "Energy (" + unit.name + ")";
     chart.series = energies(h, 0, 1e9, 0, unit.factor);
+    chart.x.low = 0, chart.x.high = 1.05e6 * h.real("time").back();
     chart.left.low = 0;
     render::Chart inset;
     inset.left.low = 0;
@@ -273,12 +306,15 @@ FigureContent energy_tension(const StudyResult& study) {
     content.panels.push_back(
         {.id = planes,
          .caption = fmt::format("Tension, planes: {}. The inset shows the failure.", planes),
-         .alt = fmt::format("The block breaks at {} s; kinetic energy reaches {} % of the work.", scientific(m.d1, 4),
-                            number(100 * r->value_or_nan(quantity::kinetic_share), 3)),
+         .alt = fmt::format("The main crack opens at {} s; kinetic energy reaches {} % of the work.",
+                            scientific(m.d1, 3), number(100 * r->value_or_nan(quantity::kinetic_share), 3)),
          .content = chart,
          .per_row = 1});
-    said.push_back(fmt::format("with {} planes it breaks at {} s, with a kinetic share of {} %", planes,
-                               scientific(m.d1, 4), number(100 * r->value_or_nan(quantity::kinetic_share), 3)));
+    const bool parts = analysis::pieces_of(*r) > 1;
+    said.push_back(fmt::format("with {} planes {} {} s, with a kinetic share of {} %{}", planes,
+                               parts ? "it breaks at" : "a crack opens at", scientific(m.d1, 3),
+                               number(100 * r->value_or_nan(quantity::kinetic_share), 3),
+                               parts ? "" : ", but the block stays in one part"));
   }
   if (!said.empty()) content.finding = sentence(said);
   return content;

@@ -30,6 +30,24 @@ std::vector<SeriesCase> failed(const StudyResult& study) {
   return cases;
 }
 
+// Single particles all around a crushed block hide its larger parts: those of the last entry of the key are left out.
+void without_single(Picture& picture, const analysis::Fragments& parts) {
+  if (parts.single() * 4 < parts.of.size()) return;
+  const render::Colour single = picture.legend.back().colour;
+  render::Spheres kept = picture.scene.spheres.front();
+  kept.centre.clear(), kept.radius.clear(), kept.colour.clear();
+  const render::Spheres& all = picture.scene.spheres.front();
+  for (std::size_t i = 0; i < all.centre.size(); ++i) {
+    const render::Colour& c = all.colour[i];
+    if (c.red == single.red && c.green == single.green && c.blue == single.blue) continue;
+    kept.centre.push_back(all.centre[i]);
+    kept.radius.push_back(all.radius[i]);
+    kept.colour.push_back(c);
+  }
+  picture.scene.spheres.front() = std::move(kept);
+  picture.label += ", without its single particles";
+}
+
 render::Outline box_of(const dem::Record& record) {
   const auto place = record.table("particles").real("position"), radius = record.table("particles").real("radius");
   render::Outline box;
@@ -54,12 +72,14 @@ FigureContent fragments(const StudyResult& study) {
   constexpr double apart = 0.3;
   for (const Broken& broken : cases) {
     const render::Outline box = box_of(*broken.record);
+    Picture picture = fragments_picture(broken, apart, {box.low, box.high}, 480);
+    without_single(picture, broken.parts);
     content.panels.push_back({.id = "apart_" + broken.id,
                               .caption =
                                   "Parts that hold together at the end, each moved outwards by 0.3 of its distance "
                                   "from the middle. Percentages are of the volume; the others are counts.",
                               .alt = fragments_words(broken) + ".",
-                              .content = fragments_picture(broken, apart, {box.low, box.high}, 480),
+                              .content = std::move(picture),
                               .per_row = 3});
   }
   content.panels.push_back({.id = "table",

@@ -96,8 +96,8 @@ render::Chart against_size(const StudyResult& study, const Test& test) {
 }
 
 // " (published −8.89 %, over nine)"; nothing when it is not known.
-std::string published_words(double percent, int digits, const char* more = "") {
-  return std::isfinite(percent) ? fmt::format(" (published {} %{})", number(percent, digits), more) : "";
+std::string published_words(double percent, const char* more = "") {
+  return std::isfinite(percent) ? fmt::format(" (published {} %{})", shortest(percent), more) : "";
 }
 
 double mean_of_blocks(const StudyResult& study, const Test& test, int& n) {
@@ -165,15 +165,15 @@ FigureContent block_strengths(const StudyResult& study) {
     content.panels.push_back({.id = std::string(test.name),
                               .caption = std::string(test.title) + " by number of elements.",
                               .alt = fmt::format("From {} MPa for {} elements to {} MPa for {}.",
-                                                 number(records.front()->value_or_nan(test.result), 4),
+                                                 number(records.front()->value_or_nan(test.result), 3),
                                                  count(records.front()->value(quantity::particles)),
-                                                 number(records.back()->value_or_nan(test.result), 4),
+                                                 number(records.back()->value_or_nan(test.result), 3),
                                                  count(records.back()->value(quantity::particles))),
                               .content = against_size(study, test)});
     if (records.front()->value(quantity::particles) == 4) {
       content.finding += fmt::format("Single unit in {}: {} %{}. ", test.name,
                                      with_sign(number(records.front()->value_or_nan(test.error), 3)),
-                                     published_words(study.published_value(test.published_single), 3));
+                                     published_words(study.published_value(test.published_single)));
     }
     std::vector<std::string> larger;
     for (const dem::Record* r : records) {
@@ -187,7 +187,7 @@ FigureContent block_strengths(const StudyResult& study) {
       content.finding +=
           fmt::format("{} in {}: {} %{}. ", n == 1 ? std::string("One block") : fmt::format("Mean of {} blocks", n),
                       test.name, with_sign(number(mean, 3)),
-                      published_words(study.published_value(test.published_mean), 4, ", the mean of nine"));
+                      published_words(study.published_value(test.published_mean), ", the mean of nine"));
     }
   }
   return content;
@@ -218,15 +218,15 @@ FigureContent strength_choices(const StudyResult& study) {
       const bool same_load = r->text("direction") == main->text("direction");
       if (failed && same_load && (!best || away(*r) < away(*best))) best = r;
       table.rows.push_back({std::string(test.name), count(r->value(quantity::particles)), choice_words(*r, *main),
-                            failed ? number(r->value_or_nan(test.result), 4) : "not reached",
+                            failed ? number(r->value_or_nan(test.result), 3) : "not reached",
                             failed ? with_sign(number(r->value_or_nan(test.error), 3)) + " %" : "–",
-                            std::isfinite(drop) ? number(1e-6 * drop, 4) : "–",
+                            std::isfinite(drop) ? number(1e-6 * drop, 3) : "–",
                             number(r->value(quantity::energy_residual), 2)});
     }
     if (best && std::isfinite(published)) {
       nearest.push_back(fmt::format("in {} {} ({} elements, {} %, published {} %)", test.name,
                                     choice_words(*best, *main), count(best->value(quantity::particles)),
-                                    with_sign(number(best->value_or_nan(test.error), 3)), number(published, 4)));
+                                    with_sign(number(best->value_or_nan(test.error), 3)), shortest(published)));
     }
   }
   std::ranges::stable_sort(table.rows, [](const auto& a, const auto& b) { return a[0] > b[0]; });

@@ -35,7 +35,7 @@ Panel map_panel(const StudyResult& study, const dem::Record& r, double strain, i
   return {.id = r.case_id + "_" + part(strain),
           .caption = fmt::format("{} at {}: {}.", label == "this run" ? "Fractures" : "Fractures, " + label + ",",
                                  at_strain(r, strain), crack_words(r, strain)),
-          .alt = fmt::format("Map of {} broken springs over the outlines of grains.", count(n[0] + n[1])),
+          .alt = fmt::format("Map of {} broken springs over the outlines of grains.", count(sum_of(n))),
           .content = fracture_map(r, strain, per_row == 1 ? render::page_width : render::column_width),
           .per_row = per_row,
           .whole_width = per_row == 1};
@@ -116,6 +116,70 @@ std::vector<double> off_radial(const dem::Record& r) {
 
 }  // namespace
 
+namespace {
+
+/// One of the records that a verdict on fractures is about: what is found of it, and why where that is not as expected.
+struct Judged {
+  Agreement agreement = Agreement::agrees;
+  std::string why;
+};
+
+/// A share that should be more than half.
+Judged judge_share(double share, double chance, const std::string& what) {
+  const Agreement agreement = mainly(share, chance);
+  if (agreement == Agreement::agrees) return {};
+  return {agreement,
+          fmt::format("{} {}, {}", percent(share, 0), what,
+                      agreement == Agreement::disagrees ? "no more than by chance (" + percent(chance, 0) + ")"
+                                                        : "between chance (" + percent(chance, 0) + ") and half")};
+}
+
+/// Under pure shear: along boundaries, and along the compression.
+Judged judge_pure_shear(const dem::Record& r) {
+  Judged boundaries = judge_share(between_share(r), between_by_chance(r), "of the breaks lie at boundaries");
+  if (!r.has(quantity::along_compression_share)) return boundaries;
+  const Judged along =
+      judge_share(r.value(quantity::along_compression_share), third, "of the trends lie along the compression");
+  if (along.agreement == Agreement::agrees) return boundaries;
+  if (boundaries.agreement == Agreement::agrees) return along;
+  if (along.agreement == Agreement::disagrees) boundaries.agreement = Agreement::disagrees;
+  boundaries.why += "; " + along.why;
+  return boundaries;
+}
+
+/// Whether all that converged are as expected, and a sentence on those that are not.
+void judge_spreads(FigureContent& content, const StudyResult& study) {
+  std::vector<std::string> off;
+  std::optional<Agreement> all;
+  for (const dem::Record* r : records_of(study)) {
+    if (r->text("solver") != "converged" || !r->has(quantity::onset_strain)) continue;
+    const Judged one = judge_pure_shear(*r);
+    if (!one.why.empty()) off.push_back(label_of(*r, study) + ": " + one.why);
+    all = !all || *all == one.agreement ? one.agreement : Agreement::undecided;
+  }
+  content.agreement = all;
+  if (!off.empty()) content.finding += " " + capital(joined(off, "; ")) + ".";
+}
+
+/// Of all that converged: how many springs broke, how many of them at boundaries, and when the first one did.
+std::string shares_said(const StudyResult& study) {
+  std::vector<std::string> broke, shares, first;
+  for (const dem::Record* r : records_of(study)) {
+    if (r->text("solver") != "converged" || !r->has(quantity::onset_strain)) continue;
+    const std::string label = label_of(*r, study), where = label == "this run" ? "" : " (" + label + ")";
+    broke.push_back(count(static_cast<double>(r->table("cracks").rows())) + where);
+    shares.push_back(percent(between_share(*r), 0) + where);
+    first.push_back(number(100 * r->value(quantity::onset_strain), 3) + " %" + where);
+  }
+  return fmt::format(
+      "{} springs broke. Of these, {} lie at grain boundaries, where by chance {} would. The first broke at a strain "
+      "of "
+      "{}.",
+      listed(broke), listed(shares), percent(between_by_chance(*main_record(study)), 0), listed(first));
+}
+
+}  // namespace
+
 FigureContent fracture_maps(const StudyResult& study) {
   FigureContent content;
   const dem::Record* r = main_record(study);
@@ -130,29 +194,49 @@ FigureContent fracture_maps(const StudyResult& study) {
                             : "Springs break only in tension, so that fractures open parallel to the compression.";
   for (const double strain : strains_of(*r))
     content.panels.push_back(map_panel(study, *r, strain, layered(*r) ? 1 : 2));
+  for (const dem::Record* other : records_of(study)) {  // how the others end; the historical sweep has its own figure
+    const std::vector<double> strains = strains_of(*other);
+    if (other == r || other->text("solver") != "converged" || strains.empty()) continue;
+    content.panels.push_back(map_panel(study, *other, strains.back(), layered(*other) ? 1 : 2));
+  }
+  if (test == "pure_shear") {
+    const bool any = std::ranges::any_of(records_of(study), [](const dem::Record* one) {
+      return one->text("solver") == "converged" && one->has(quantity::onset_strain);
+    });
+    content.finding = any ? shares_said(study) : "No spring broke.";
+    judge_spreads(content, study);
+    return content;
+  }
   if (!r->has(quantity::onset_strain)) {
     content.finding = "No spring broke.";
     return content;
   }
-  const std::string broke =
-      count(r->value(quantity::cracks_intra_tension) + r->value(quantity::cracks_inter_tension)) + " springs broke";
+  const auto broken = static_cast<double>(r->table("cracks").rows());
+  const std::string broke = count(broken) + (broken == 1 ? " spring broke" : " springs broke");
   const std::string first = "the first at " + at_strain(*r, r->value_or_nan(quantity::onset_strain));
+  if (layered(*r)) {
+    content.finding = fmt::format("{}, {}: {}", broke, first, crack_words(*r, r->value(quantity::final_strain)));
+  } else {
+    content.finding =
+        fmt::format("{}, {} of them at grain boundaries; {}", broke, percent(between_share(*r), 0), first);
+  }
   if (test == "extension" && r->has(quantity::crossing_fractures)) {
     const double through = r->value(quantity::crossing_fractures);
     content.agreement = through > 0 ? Agreement::agrees : Agreement::undecided;
-    content.finding = fmt::format("{}, {}; {} through the layer.", broke, first,
-                                  through == 1 ? "one fracture runs" : count(through) + " fractures run");
+    content.finding += fmt::format("; {} through the layer.", through == 0   ? "no fracture runs"
+                                                              : through == 1 ? "one fracture runs"
+                                                                             : count(through) + " fractures run");
     return content;
   }
-  content.finding = fmt::format("{}, {} of them at {}; {}.", broke, percent(between_share(*r), 0),
-                                uniform_layer(*r) ? "the layer’s edges" : "grain boundaries", first);
-  const auto along = [&](const dem::Quantity& share) {
-    if (r->has(share)) content.agreement = mainly(r->value(share), third);
+  content.finding += ".";
+  const auto along = [&](const dem::Quantity& share, const char* what) {
+    if (!r->has(share)) return;
+    const Judged judged = judge_share(r->value(share), third, what);
+    content.agreement = judged.agreement;
+    if (!judged.why.empty()) content.finding += " " + judged.why + ".";
   };
-  if (test == "growth") along(quantity::radial_share);
-  if (test == "compression" || test == "pure_shear") along(quantity::along_compression_share);
-  if (test == "pure_shear" && content.agreement == Agreement::agrees)
-    content.agreement = mainly(between_share(*r), 0);  // chance depends on the grains
+  if (test == "growth") along(quantity::radial_share, "of the trends lie along the radius");
+  if (test == "compression") along(quantity::along_compression_share, "of the trends lie along the compression");
   return content;
 }
 
@@ -191,6 +275,8 @@ FigureContent rose_of_fractures(const StudyResult& study) {
     content.finding = listed(said) + " of the trends lie within 30° of the compression (by chance a third).";
     const Agreement low = mainly(least, third), high = mainly(most, third);
     content.agreement = low == high ? low : Agreement::undecided;
+    if (content.agreement == Agreement::undecided)
+      content.finding += " Agreement takes half of them or more in every run, disagreement a third or less.";
   }
   return content;
 }
@@ -236,6 +322,8 @@ FigureContent radial_fractures(const StudyResult& study) {
   content.finding = fmt::format("{} of {} trends lie within 30° of the radius (by chance a third).", percent(share, 0),
                                 count(static_cast<double>(angles.size())));
   content.agreement = mainly(share, third);
+  if (content.agreement == Agreement::undecided)
+    content.finding += " Agreement takes half of them or more, disagreement a third or less.";
   return content;
 }
 

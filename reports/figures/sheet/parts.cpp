@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "reports/text.h"
 
@@ -25,6 +26,46 @@ bool marked(const dem::Record& record, std::size_t grain) {
     if (std::isfinite(v)) softest = std::min(softest, v);
   }
   return std::isfinite(k[grain]) && k[grain] > 20 * softest;
+}
+
+std::string_view colour_of(CrackPlace place) {
+  switch (place) {
+    case CrackPlace::boundary:
+      return inter_colour;
+    case CrackPlace::edge:
+      return edge_colour;
+    case CrackPlace::matrix:
+      return matrix_colour;
+    case CrackPlace::inside:
+      break;
+  }
+  return intra_colour;
+}
+
+// "at grain boundaries", "in the matrix"
+std::string place_words(const dem::Record& record, CrackPlace place) {
+  switch (place) {
+    case CrackPlace::boundary:
+      return layered(record) ? "at grain boundaries" : "at boundaries";
+    case CrackPlace::edge:
+      return "at the layer’s edges";
+    case CrackPlace::matrix:
+      return "in the matrix";
+    case CrackPlace::inside:
+      break;
+  }
+  return uniform_layer(record) ? "in the layer" : "inside grains";
+}
+
+// Those of its key: where springs can break, and in the matrix where any does by the end.
+std::vector<CrackPlace> places_shown(const dem::Record& record) {
+  if (!layered(record)) return {CrackPlace::inside, CrackPlace::boundary};
+  std::vector<CrackPlace> shown{CrackPlace::inside};
+  if (!uniform_layer(record)) shown.push_back(CrackPlace::boundary);
+  shown.push_back(CrackPlace::edge);
+  const std::vector<CrackPlace> of = places_of(record);
+  if (std::ranges::find(of, CrackPlace::matrix) != of.end()) shown.push_back(CrackPlace::matrix);
+  return shown;
 }
 
 }  // namespace
@@ -175,44 +216,97 @@ std::string fracture_map(const dem::Record& record, double strain, double width)
   }
   const dem::Table& cracks = record.table("cracks");
   const auto at = cracks.real("strain"), place = cracks.real("position"), angle = cracks.real("angle");
-  const auto between = cracks.integer("place");
+  const std::vector<CrackPlace> of = places_of(record);
   // The crack across a spring is as long as the side of the cell that two particles share.
   const double half = 0.75 * l.radius, thick = std::clamp(1.4 * l.radius * d.scale(), 0.7, 2.5);
-  for (const int wanted : {1, 0}) {
+  for (const CrackPlace wanted : {CrackPlace::matrix, CrackPlace::edge, CrackPlace::boundary, CrackPlace::inside}) {
     std::string path;
     for (std::size_t c = 0; c < at.size(); ++c) {
-      if (at[c] > strain * (1 + 1e-9) || between[c] != wanted) continue;
+      if (at[c] > strain * (1 + 1e-9) || of[c] != wanted) continue;
       const double ux = half * std::cos(angle[c]), uy = half * std::sin(angle[c]);
       path += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", d.px(place[2 * c] - ux), d.py(place[2 * c + 1] - uy),
                           d.px(place[2 * c] + ux), d.py(place[2 * c + 1] + uy));
     }
     if (path.empty()) continue;
     d.raw(fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"{:.2f}\" stroke-linecap=\"round\" fill=\"none\"/>",
-                      path, wanted ? inter_colour : intra_colour, thick));
+                      path, colour_of(wanted), thick));
   }
   d.raw(fmt::format("<rect x=\"0.5\" y=\"0.5\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#555\"/>",
                     width - 1, (high - low) * d.scale() - 1));
   const auto n = crack_counts(record, strain);
-  const bool uniform = uniform_layer(record);
-  std::vector<KeyItem> key{
-      {std::string(intra_colour), fmt::format("{}: {}", uniform ? "inside" : "inside grains", count(n[0])), true},
-      {std::string(inter_colour),
-       fmt::format("{}: {}", uniform ? "at the layer’s edges" : "at boundaries", count(n[1])), true}};
+  std::vector<KeyItem> key;
+  for (const CrackPlace one : places_shown(record))
+    key.push_back(
+        {std::string(colour_of(one)), place_words(record, one) + ": " + count(n[static_cast<std::size_t>(one)]), true});
   bool any = false;
   for (std::size_t g = 0; g < outlines.size(); ++g) any = any || marked(record, g);
   if (any) key.push_back({std::string(marked_fill), layered(record) ? "layer" : "growing grains", false});
   return d.finish_with_key(key);
 }
 
-std::array<int, 2> crack_counts(const dem::Record& record, double strain) {
+std::vector<CrackPlace> places_of(const dem::Record& record) {
   const dem::Table& cracks = record.table("cracks");
-  const auto at = cracks.real("strain");
   const auto between = cracks.integer("place");
-  std::array<int, 2> n{0, 0};
+  std::vector<CrackPlace> places;
+  for (const std::int32_t one : between) places.push_back(one == 0 ? CrackPlace::inside : CrackPlace::boundary);
+  if (!layered(record)) return places;
+  std::vector<bool> in_layer;
+  for (std::size_t g = 0; g < record.table("grains").rows(); ++g) in_layer.push_back(marked(record, g));
+  // A spring of the sheet at rest has its particles a radius from its middle, all others are further away.
+  const Layout l = layout_of(record);
+  const auto grain = record.table("particles").integer("grain");
+  const auto at = record.table("particles").real("position"), middle = cracks.real("position");
+  for (std::size_t c = 0; c < places.size(); ++c) {
+    const double x = middle[2 * c], y = middle[2 * c + 1];
+    const int below = static_cast<int>(std::floor((y - at[1]) / (std::sqrt(3.0) * l.radius) + 1e-6));
+    int ends = 0, of_layer = 0;
+    for (int row = std::max(0, below); row <= std::min(below + 1, l.rows - 1); ++row) {
+      const auto first = static_cast<std::size_t>(row) * static_cast<std::size_t>(l.columns);
+      const int left = static_cast<int>(std::floor((x - at[2 * first]) / (2 * l.radius)));
+      for (int column = std::max(0, left - 1); column <= std::min(left + 2, l.columns - 1); ++column) {
+        const std::size_t i = first + static_cast<std::size_t>(column);
+        if (std::hypot(at[2 * i] - x, at[2 * i + 1] - y) > 1.2 * l.radius) continue;
+        ++ends;
+        of_layer += in_layer[static_cast<std::size_t>(grain[i])] ? 1 : 0;
+      }
+    }
+    if (of_layer < ends) places[c] = of_layer == 0 ? CrackPlace::matrix : CrackPlace::edge;
+  }
+  return places;
+}
+
+std::array<int, crack_places> crack_counts(const dem::Record& record, double strain) {
+  const auto at = record.table("cracks").real("strain");
+  const std::vector<CrackPlace> of = places_of(record);
+  std::array<int, crack_places> n{};
   for (std::size_t c = 0; c < at.size(); ++c) {
-    if (at[c] <= strain * (1 + 1e-9)) ++n[static_cast<std::size_t>(between[c])];
+    if (at[c] <= strain * (1 + 1e-9)) ++n[static_cast<std::size_t>(of[c])];
   }
   return n;
+}
+
+int sum_of(const std::array<int, crack_places>& counts) { return std::accumulate(counts.begin(), counts.end(), 0); }
+
+double between_by_chance(const dem::Record& record) {
+  const Layout l = layout_of(record);
+  const auto grain = record.table("particles").integer("grain");
+  const auto at = record.table("particles").real("position");
+  double springs = 0, between = 0;
+  const auto add = [&](std::size_t i, std::size_t j) {
+    if (std::hypot(at[2 * i] - at[2 * j], at[2 * i + 1] - at[2 * j + 1]) > 2.2 * l.radius) return;
+    ++springs;
+    between += grain[i] == grain[j] ? 0 : 1;
+  };
+  const auto columns = static_cast<std::size_t>(l.columns), rows = static_cast<std::size_t>(l.rows);
+  for (std::size_t i = 0; i < columns * rows; ++i) {
+    const std::size_t column = i % columns;
+    if (column + 1 < columns) add(i, i + 1);
+    if (i / columns + 1 == rows) continue;
+    for (std::size_t above = i + columns - (column > 0 ? 1 : 0); above <= i + columns + (column + 1 < columns ? 1 : 0);
+         ++above)
+      add(i, above);
+  }
+  return springs > 0 ? between / springs : 0;
 }
 
 bool uniform_layer(const dem::Record& record) {
@@ -222,9 +316,13 @@ bool uniform_layer(const dem::Record& record) {
 
 std::string crack_words(const dem::Record& record, double strain) {
   const auto n = crack_counts(record, strain);
-  const bool uniform = uniform_layer(record);
-  return fmt::format("{} broken {} inside{}, {} at {}", count(n[0]), n[0] == 1 ? "spring" : "springs",
-                     uniform ? "" : " grains", count(n[1]), uniform ? "the layer’s edges" : "boundaries");
+  std::vector<std::string> said;
+  for (const CrackPlace one : places_shown(record)) {
+    const int number = n[static_cast<std::size_t>(one)];
+    const std::string what = said.empty() ? (number == 1 ? " broken spring " : " broken springs ") : " ";
+    said.push_back(count(number) + what + place_words(record, one));
+  }
+  return joined(said, ", ");
 }
 
 std::string at_strain(const dem::Record& record, double strain) {

@@ -59,6 +59,7 @@ std::string grain_fill(std::size_t grain);
 /// Fill of grains that grow, or of the layer.
 constexpr std::string_view marked_fill = "#e9d9a8";
 constexpr std::string_view intra_colour = "#bd4300", inter_colour = "#0b3c5d";
+constexpr std::string_view edge_colour = "#008585", matrix_colour = "#000000";
 
 /// The outlines of a record's grains, each as points, where they lie under the particles.
 std::vector<std::vector<std::array<double, 2>>> outlines_of(const dem::Record& record);
@@ -66,7 +67,7 @@ std::vector<std::vector<std::array<double, 2>>> outlines_of(const dem::Record& r
 /// True for a layer in a matrix.
 bool layered(const dem::Record& record);
 
-/// Cracks up to a strain over the grain outlines, intra and inter grain by colour.
+/// Cracks up to a strain over the grain outlines, by colour where they lie.
 std::string fracture_map(const dem::Record& record, double strain, double width);
 /// "13 broken springs inside grains, 2 at boundaries" up to a strain, in the words of the sheet's own map.
 std::string crack_words(const dem::Record& record, double strain);
@@ -76,11 +77,20 @@ bool uniform_layer(const dem::Record& record);
 std::string at_strain(const dem::Record& record, double strain);
 /// Agrees above a half, disagrees below what chance gives.
 Agreement mainly(double share, double chance);
-/// Number of cracks up to a strain: {intra, inter}.
-std::array<int, 2> crack_counts(const dem::Record& record, double strain);
+/// Where a broken spring lies. A sheet without a layer has the first two places only; in one with a layer they are those of
+/// springs between two particles of the layer.
+enum class CrackPlace { inside, boundary, edge, matrix };
+constexpr std::size_t crack_places = 4;
+/// Of each broken spring, by the grains of its two particles.
+std::vector<CrackPlace> places_of(const dem::Record& record);
+/// Number of cracks up to a strain, by place.
+std::array<int, crack_places> crack_counts(const dem::Record& record, double strain);
+int sum_of(const std::array<int, crack_places>& counts);
 
 /// Share of all cracks that lie between grains; not a number without any.
 double between_share(const dem::Record& record);
+/// Share of the springs that lie between grains: what that of the cracks would be by chance.
+double between_by_chance(const dem::Record& record);
 
 /// Names of a record's snapshot tables, and their strains.
 std::vector<std::pair<std::string, double>> snapshots_of(const dem::Record& record);

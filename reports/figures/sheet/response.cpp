@@ -2,12 +2,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <functional>
 #include <optional>
 #include <set>
 
+#include "engine/analysis/peaks.h"
+#include "reports/figures/energy_colours.h"
 #include "reports/figures/sheet/parts.h"
 #include "reports/figures/table.h"
 #include "reports/text.h"
@@ -31,7 +34,31 @@ std::string strain_title(const dem::Record& r) {
   return r.text("test") == "growth" ? "Growth of radii (%)" : "Strain (%)";
 }
 
-render::Chart stress_chart(const dem::Record& r) {
+constexpr double room = 1.05;  // beyond the end of a run: what falls there does not lie on the frame
+
+/// Ends of the axes that all runs of a study share, so that they can be compared.
+struct Reach {
+  double strain = 0;         ///< %
+  double low = 0, high = 0;  ///< stress, 10⁻³ k
+  double breaks = 0;
+};
+Reach reach_of(const StudyResult& study) {
+  Reach all;
+  for (const dem::Record* r : records_of(study)) {
+    const dem::Table& h = r->table("history");
+    for (const double strain : h.real("strain")) all.strain = std::max(all.strain, room * 100 * strain);
+    for (const double n : h.real("breaks")) all.breaks = std::max(all.breaks, room * n);
+    for (const char* column : {"stress_xx", "stress_yy", "loaded_stress_xx", "loaded_stress_yy"}) {
+      for (const double stress : h.real(column)) {
+        all.low = std::min(all.low, 1e3 * room * stress);
+        all.high = std::max(all.high, 1e3 * room * stress);
+      }
+    }
+  }
+  return all;
+}
+
+render::Chart stress_chart(const dem::Record& r, const Reach& reach) {
   const dem::Table& h = r.table("history");
   render::Chart chart;
   chart.x.title = strain_title(r);
@@ -42,15 +69,19 @@ render::Chart stress_chart(const dem::Record& r) {
   xx.colour = render::palette(5), yy.colour = render::palette(4);
   yy.line = render::Line::dash;
   chart.series = {xx, yy};
+  chart.x.low = 0, chart.x.high = reach.strain;
+  if (reach.high > reach.low) chart.left.low = reach.low, chart.left.high = reach.high;
   chart.legend = render::Chart::Legend::bottom_left;
   return chart;
 }
 
-render::Chart breaks_chart(const dem::Record& r) {
+render::Chart breaks_chart(const dem::Record& r, const Reach& reach) {
   render::Chart chart;
   chart.x.title = strain_title(r);
   chart.left.title = "Broken springs";
+  chart.x.low = 0, chart.x.high = reach.strain;
   chart.left.low = 0;
+  if (reach.breaks > 0) chart.left.high = reach.breaks;
   render::Series breaks = curve(r.table("history"), {"strain", "breaks", 100, 1});
   breaks.x.insert(breaks.x.begin(), 0), breaks.y.insert(breaks.y.begin(), 0);
   breaks.colour = render::palette(0);
@@ -137,15 +168,16 @@ Panel field_panel(const dem::Record& r, const std::string& table, double strain,
   const auto range = std::minmax_element(value.begin(), value.end());
   return {
       .id = field.column + fmt::format("_{}", table.substr(table.size() - 4)),
-      .caption = fmt::format("{}{}; the colours span all values but the most extreme hundredth.", field.words,
+      .caption = fmt::format("{}{}; the colours span all but the most extreme 1 % of the values.", field.words,
                              field.has_sign ? ", tension positive" : ""),
       .alt = fmt::format("Values go from {} to {} in units of k.", number(*range.first, 2), number(*range.second, 2)),
       .content = p,
       .per_row = 2};
 }
 
-// Whether springs break later and tension falls more in one step the narrower their strengths are distributed.
-std::optional<Agreement> abruptness_agrees(const StudyResult& study) {
+// Whether springs break later and tension falls more in one step the narrower their strengths are distributed; why it cannot
+// be told is added to the finding.
+std::optional<Agreement> abruptness_agrees(const StudyResult& study, std::string& finding) {
   std::vector<const dem::Record*> along;
   for (const dem::Record* r : records_of(study)) {
     if (r->text("test") == "pure_shear" && r->text("solver") == "converged" && r->has(quantity::onset_strain))
@@ -157,6 +189,13 @@ std::optional<Agreement> abruptness_agrees(const StudyResult& study) {
     return std::ranges::is_sorted(along, std::greater{}, [&](const dem::Record* r) { return r->value_or_nan(of); });
   };
   const bool early = falls(quantity::onset_strain), gradual = falls(quantity::largest_drop_share);
+  if (early != gradual) {
+    finding +=
+        early ? " The narrower the distribution, the later the first break, but the falls in one load step do not "
+                "follow it."
+              : " The narrower the distribution, the larger the fall in one load step, but the first breaks do not "
+                "follow it.";
+  }
   return early && gradual ? Agreement::agrees : early || gradual ? Agreement::undecided : Agreement::disagrees;
 }
 
@@ -171,7 +210,8 @@ FigureContent stress_strain(const StudyResult& study) {
                           ? "A sheet with a narrow distribution of strengths fails abruptly; one with a wide "
                             "distribution cracks early and fails gradually."
                           : "";
-  std::vector<std::string> first, worst, falls, unbroken;
+  const Reach reach = reach_of(study);
+  std::vector<std::string> first, worst, falls, unbroken, rising;
   for (const dem::Record* r : records_of(study)) {
     const std::string label = label_of(*r, study);
     content.panels.push_back(
@@ -181,16 +221,17 @@ FigureContent stress_strain(const StudyResult& study) {
          .alt = fmt::format("Largest differential stress {} at {} %.",
                             number(r->value(quantity::peak_differential_stress), 3),
                             number(100 * r->value(quantity::strain_at_peak), 3)),
-         .content = stress_chart(*r),
+         .content = stress_chart(*r, reach),
          .per_row = 2});
     content.panels.push_back(
         {.id = r->case_id + "_breaks",
          .caption = label == "this run" ? "Cumulative broken springs." : "Cumulative broken springs, " + label + ".",
          .alt = fmt::format("{} springs have broken at the end.",
                             count(r->value(quantity::cracks_intra_tension) + r->value(quantity::cracks_inter_tension))),
-         .content = breaks_chart(*r),
+         .content = breaks_chart(*r, reach),
          .per_row = 2});
     const std::string where = label == "this run" ? "" : " (" + label + ")";
+    if (!analysis::passed_peak(*r)) rising.push_back(label);
     if (!r->has(quantity::onset_strain)) {
       unbroken.push_back(label);
       continue;
@@ -204,14 +245,21 @@ FigureContent stress_strain(const StudyResult& study) {
   if (!first.empty()) {
     const bool growth = main->text("test") == "growth";
     said.push_back(fmt::format("The first spring breaks at a {} of {}.", growth ? "growth" : "strain", listed(first)));
-    said.push_back("The worst load step has " + listed(worst) + " of all breaks.");
+    said.push_back("The load step with most breaks has " + listed(worst) + " of all.");
   }
   if (!falls.empty())
-    said.push_back("In one load step the walls lose at most " + listed(falls) + " of their largest tension.");
+    said.push_back("The largest fall of the wall tension in one load step is " + listed(falls) +
+                   " of its largest value.");
+  if (!rising.empty()) {
+    said.push_back(rising.front() == "this run" ? "The differential stress passes no peak by the end of the run."
+                   : rising.size() == records_of(study).size()
+                       ? std::string("In no run does the differential stress pass a peak.")
+                       : "The differential stress passes no peak by the end of the run: " + listed(rising) + ".");
+  }
   if (!unbroken.empty())
     said.push_back("No spring broke" + (unbroken.front() == "this run" ? "" : ": " + listed(unbroken)) + ".");
   content.finding = joined(said, " ");
-  content.agreement = abruptness_agrees(study);
+  content.agreement = abruptness_agrees(study, content.finding);
   return content;
 }
 
@@ -224,7 +272,7 @@ FigureContent energy(const StudyResult& study) {
     const dem::Table& h = r->table("history");
     const auto strain = h.real("strain"), boundary = h.real("boundary_work"), growth = h.real("growth_work");
     for (std::size_t i = 0; i < strain.size(); ++i) {
-      last_strain = std::max(last_strain, 100 * strain[i]);
+      last_strain = std::max(last_strain, room * 100 * strain[i]);
       most = std::max(most, 1e6 * (boundary[i] + growth[i]));
     }
   }
@@ -245,9 +293,11 @@ FigureContent energy(const StudyResult& study) {
                           .outlined = true,
                           .inside = true};
     };
-    render::Band stored = band("elastic", {0.612, 0.773, 0.875}), lost = band("released", {0.239, 0.408, 0.533});
+    render::Band stored = band("elastic", colours_of(Energy::elastic).area),
+                 lost = band("released", colours_of(Energy::breaking).area);
     render::Series work;
     work.label = "work done";
+    work.colour = colours_of(Energy::work).line;
     work.x = work.y = {0};
     for (std::size_t i = 0; i < strain.size(); ++i) {
       const double x = 100 * strain[i], e = 1e6 * elastic[i];
@@ -269,8 +319,8 @@ FigureContent energy(const StudyResult& study) {
     content.panels.push_back(
         {.id = r->case_id,
          .caption = label == "this run"
-                        ? std::string("Energy; released is what breaking and jumps have taken.")
-                        : fmt::format("Energy, {}; released is what breaking and jumps have taken.", label),
+                        ? std::string("Energy; “released” is what breaking and jumps have taken.")
+                        : fmt::format("Energy, {}; “released” is what breaking and jumps have taken.", label),
          .alt = fmt::format("Work, elastic energy and released energy agree to {} of the work.", number(residual, 2)),
          .content = chart,
          .per_row = 2});
@@ -283,7 +333,8 @@ FigureContent energy(const StudyResult& study) {
 
 FigureContent stress_fields(const StudyResult& study) {
   FigureContent content;
-  content.finding = "The stress of a particle is that of its springs over its cell of the lattice.";
+  content.finding =
+      "The stress of a particle is the sum over its springs of force times length, over the area of its lattice cell.";
   const dem::Record* r = main_record(study);
   if (!r) return content;
   const auto snapshots = snapshots_of(*r);
@@ -324,8 +375,11 @@ FigureContent solvers(const StudyResult& study) {
   };
   table.rows.push_back({"Broken springs", broken(*ours), broken(*theirs)});
   row("Strain at the first break (%)", quantity::onset_strain, [](double v) { return number(100 * v, 3); });
-  row("Peak differential stress (k)", quantity::peak_differential_stress, [](double v) { return number(v, 4); });
-  row("Strain at the peak (%)", quantity::strain_at_peak, [](double v) { return number(100 * v, 3); });
+  const std::array<const dem::Record*, 2> both_records{ours, theirs};
+  for (const dem::Quantity& one : {quantity::peak_differential_stress, quantity::strain_at_peak}) {
+    const std::string name = axis_title(one, analysis::name_of(one, both_records));
+    row(name.c_str(), one, [&](double v) { return number(one.factor * v, one.digits); });
+  }
   table.rows.push_back({"Share at grain boundaries (%)", number(100 * between_share(*ours), 3),
                         number(100 * between_share(*theirs), 3)});
   row("Largest unbalanced over largest spring force", quantity::unbalanced_force,
@@ -352,7 +406,7 @@ FigureContent solvers(const StudyResult& study) {
     content.panels.push_back({.id = r->text("solver"),
                               .caption = fmt::format("Fractures at {}, {}: {}.", at_strain(*r, strain),
                                                      words(r->text("solver")), crack_words(*r, strain)),
-                              .alt = fmt::format("Map of {} broken springs.", count(n[0] + n[1])),
+                              .alt = fmt::format("Map of {} broken springs.", count(sum_of(n))),
                               .content = fracture_map(*r, strain, render::column_width),
                               .per_row = 2});
   }
@@ -361,10 +415,10 @@ FigureContent solvers(const StudyResult& study) {
   content.finding = fmt::format(
       "The historical sweep stops when no particle moves by more than 1.4 × 10⁻⁷ of the box in a sweep; the converged "
       "solver stops at force equilibrium. {}; {} of the springs that break with the converged solver also break with "
-      "the "
-      "historical one.",
-      same == 0 ? "The very first break differs"
-                : fmt::format("The breaks coincide up to number {}", count(static_cast<double>(same))),
+      "the historical one.",
+      same == 0   ? "The very first break differs"
+      : same == 1 ? "Only the first break is the same"
+                  : fmt::format("The first {} breaks are the same", count(static_cast<double>(same))),
       percent(both, 0));
   return content;
 }

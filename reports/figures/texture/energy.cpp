@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "reports/figures/energy_colours.h"
 #include "reports/figures/table.h"
 #include "reports/figures/texture/parts.h"
 #include "reports/text.h"
@@ -45,7 +46,7 @@ void add_dissipated(FigureContent& content, const std::vector<SeriesCase>& cases
     for (const double strain : history->real("platen_strain")) series.x.push_back(100 * strain);
     for (const double energy : history->real(dissipated[k].column)) series.y.push_back(1e-3 * energy / volume);
     series.label = dissipated[k].label;
-    series.colour = render::palette(k == 3 ? 5 : k);
+    series.colour = colours_of(energy_of(dissipated[k].column)).line;
     series.line = render::line_style(k);
     ends.push_back(fmt::format("{} {}", dissipated[k].label, number(series.y.back(), 3)));
     chart.series.push_back(std::move(series));

@@ -66,7 +66,7 @@ render::Chart stress_and_strains(const StudyResult& study, const dem::Record& re
   chart.left.title = "Axial stress (MPa)";
   chart.right.title = "Volumetric, lateral strain (%)";
   render::Series stress = curve(history, {"axial_strain", "axial_stress", 100, 1e-6});
-  stress.label = "axial stress";
+  stress.label = "axial stress (left)";
   stress.colour = render::palette(0);
   render::Series volume = curve(history, {"axial_strain", "volumetric_strain", 100, 100});
   volume.label = "volumetric strain (right)";
@@ -93,7 +93,7 @@ render::Chart stress_and_strains(const StudyResult& study, const dem::Record& re
     if (!ours || one.unit != "MPa") continue;
     std::string name(one.name);
     name.front() = static_cast<char>(std::tolower(name.front()));
-    add_laboratory(chart, {{strain_at(history, *ours), &one}}, "laboratory, " + name,
+    add_laboratory(chart, {{strain_at(history, *ours), &one}}, "laboratory, " + name + " (left)",
                    one.key == "ucs" ? render::Marker::square : render::Marker::triangle);
   }
   for (const Level& one : levels_of(record)) {
