@@ -108,7 +108,7 @@ Json quantities_json(const StudyResult& study) {
 Json comparison_json(const Comparison& row) {
   Json json{{"id", row.id},
             {"source", row.source},
-            {"published", plain(row.published)},
+            {"published", row.stated.empty() ? plain(row.published) : Json(row.stated)},
             {"computed", or_null(row.computed)},
             {"deviation", or_null(row.deviation)},
             {"tolerance", or_null(row.tolerance)},
@@ -118,6 +118,7 @@ Json comparison_json(const Comparison& row) {
             {"scale", row.scale},
             {"unit", row.unit},
             {"relative", row.relative}};
+  if (!row.stated.empty()) json["read_as"] = plain(row.published);
   if (row.estimate && row.estimate->has_interval()) {
     if (row.kind == "trend") json["slope"] = plain(row.estimate->value);
     if (row.kind == "greater") json["difference"] = plain(row.estimate->value);
@@ -147,7 +148,9 @@ Json tally_json(const Tally& counts) {
           {"not_judged", counts.not_judged},
           {"not_computed", counts.not_computed},
           {"fitted", counts.fitted},
-          {"theory", counts.theory}};
+          {"theory", counts.theory},
+          {"stated", counts.stated},
+          {"derived", counts.derived}};
 }
 
 }  // namespace

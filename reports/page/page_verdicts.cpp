@@ -21,12 +21,23 @@ std::string with_unit(const std::string& amount, const std::string& unit) {
   return amount + (unit.starts_with("10") ? " × " : " ") + whole;
 }
 
-std::string published_text(const Comparison& row) {
+// The limits of what is published in words are small print: they are ours.
+std::string amount_of(const Comparison& row) {
   if (const auto* text = std::get_if<std::string>(&row.published)) return *text;
   if (const auto* range = std::get_if<std::pair<double, double>>(&row.published)) {
     return with_unit(shortest(range->first) + " to " + shortest(range->second), row.unit);
   }
   return with_unit(shortest(std::get<double>(row.published)), row.unit);
+}
+
+std::string published_text(const Comparison& row) {
+  return row.stated.empty() ? amount_of(row) : "“" + row.stated + "”";
+}
+
+std::string published_detail(const Comparison& row) {
+  if (!row.stated.empty()) return "read as " + amount_of(row);
+  if (row.derived.empty()) return row.published_detail;
+  return joined_notes({row.published_detail, "derived: " + row.derived});
 }
 
 // Three significant digits, or as many as the published number has.
@@ -78,6 +89,8 @@ std::string role_text(const Comparison& row, const std::vector<Comparison>& rows
       }
       return "Not counted: follows from " + (names.empty() ? "others" : listed(names)) + ".";
     }
+    case Role::stated:
+    case Role::derived:
     case Role::sensitivity:
     case Role::number:
       break;
@@ -114,8 +127,9 @@ PageData comparisons_data(const Comparisons& comparisons) {
     item.set("statement", joined_notes({row.statement, role}));
     item.set("has_statement", !row.statement.empty() || !role.empty());
     item.set("published_value", reading ? "" : published_text(row));
-    item.set("published_detail", row.published_detail);
-    item.set("has_published_detail", !reading && !row.published_detail.empty());
+    const std::string small = published_detail(row);
+    item.set("published_detail", small);
+    item.set("has_published_detail", !reading && !small.empty());
     // One against the other: both numbers say more than the word.
     const std::size_t both =
         row.kind == "greater" && row.computed ? std::min(row.detail.find("; "), row.detail.size()) : 0;

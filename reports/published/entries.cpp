@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 namespace reports {
 namespace {
@@ -40,7 +41,8 @@ void check_tolerance(const Json& entry, const std::string& id) {
 
 void check_kind(const Json& entry, const std::string& id) {
   const Names needed = {"id", "topics", "source", "quantity", "kind", "of"};
-  const Names allowed = {"unit", "statement", "optional", "scale", "fitted", "theory", "follows", "readings"};
+  const Names allowed = {"unit",   "statement", "optional", "scale",   "fitted",
+                         "theory", "follows",   "stated",   "derived", "readings"};
   const auto with = [](Names names, std::initializer_list<const char*> more) {
     names.insert(more.begin(), more.end());
     return names;
@@ -61,11 +63,14 @@ void check_kind(const Json& entry, const std::string& id) {
 
 void check_role(const Json& entry, const std::string& id) {
   const int roles = static_cast<int>(entry.contains("fitted")) + static_cast<int>(entry.contains("theory")) +
-                    static_cast<int>(entry.contains("follows"));
-  if (roles > 1) wrong(id, "one of fitted, theory and follows at most");
-  for (const char* name : {"fitted", "theory"}) {
+                    static_cast<int>(entry.contains("follows")) + static_cast<int>(entry.contains("stated"));
+  if (roles > 1) wrong(id, "one of fitted, theory, follows and stated at most");
+  if (entry.contains("stated") && entry.contains("derived")) wrong(id, "a statement in words is not derived");
+  const std::array<std::pair<const char*, const char*>, 4> texts{
+      {{"fitted", "why"}, {"theory", "why"}, {"stated", "the paper’s words"}, {"derived", "from what"}}};
+  for (const auto& [name, what] : texts) {
     if (entry.contains(name) && entry.at(name).get<std::string>().empty()) {
-      wrong(id, "the member “" + std::string(name) + "” says why");
+      wrong(id, "the member “" + std::string(name) + "” says " + what);
     }
   }
   constexpr std::array<std::string_view, 5> scales{"any", "smoke", "draft", "paper", "high"};
@@ -111,7 +116,9 @@ void check_entries(const Json& file) {
 Declared declared_role(const Json& entry) {
   if (entry.contains("fitted")) return {Role::fitted, entry.at("fitted").get<std::string>(), {}};
   if (entry.contains("theory")) return {Role::theory, entry.at("theory").get<std::string>(), {}};
+  if (entry.contains("stated")) return {Role::stated, "", {}};
   if (entry.contains("follows")) return {Role::follows, "", entry.at("follows").get<std::vector<std::string>>()};
+  if (entry.contains("derived")) return {Role::derived, "", {}};
   return {};
 }
 

@@ -171,6 +171,8 @@ Comparison described(const Json& entry) {
   row.quantity = entry.at("quantity").get<std::string>();
   row.unit = entry.value("unit", "");
   row.statement = entry.value("statement", "");
+  row.stated = entry.value("stated", "");
+  row.derived = entry.value("derived", "");
   row.kind = entry.at("kind").get<std::string>();
   if (row.kind == "value") {
     const Json& published = entry.at("published");
@@ -320,7 +322,8 @@ std::vector<PublishedNumber> published_numbers(const StudyResult& study, const s
                      (range ? published.at(1) : published).get<double>()});
     };
     for (const Json& entry : paper.at("numbers")) {
-      if (entry.at("kind").get<std::string>() == "value") add(entry);
+      const bool printed = !entry.contains("stated") && !entry.contains("derived");
+      if (printed && entry.at("kind").get<std::string>() == "value") add(entry);
     }
     for (const Json& entry : paper.value("quoted", Json::array())) add(entry);
   });

@@ -15,6 +15,10 @@
 //   "follows": ["id", ...]   follows from those rows
 //   "fitted": "why"          a choice of the program was fitted to it
 //   "theory": "why"          a formula beside a formula
+//   "stated": "mainly"       the paper has these words and no number: they stand under "Published", and `published` with its
+//                            tolerance is how this program reads them
+//   "derived": "206.8 / 9.8" computed here from what the paper prints; may stand beside "follows" or "theory"
+// What is stated or derived is no published number: figures do not draw it.
 // "scale": "high" if the number belongs to another scale than its paper's (it is shown at that one only), "any" if the scale
 // does not matter. "optional": true leaves the number out where the scenario has not the case. "quoted" are numbers of the
 // paper that figures show and nothing of ours is compared with.
@@ -42,6 +46,8 @@ struct Comparison {
   std::string why;              ///< of a fitted row or one of theory: see above
   std::vector<std::string> of;  ///< rows that it follows from, or the one that it is another reading of
   std::string reading;          ///< of a row of role sensitivity
+  std::string stated;           ///< the paper's words, where it has no number
+  std::string derived;          ///< from what the published number was computed here
   std::string scale;            ///< of the published number; "any"
   Amount published;
   std::optional<Amount> computed;

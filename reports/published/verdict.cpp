@@ -28,6 +28,10 @@ std::string_view role_word(Role role) {
       return "fitted";
     case Role::theory:
       return "theory";
+    case Role::stated:
+      return "stated";
+    case Role::derived:
+      return "derived";
     case Role::follows:
       return "follows";
     case Role::sensitivity:
@@ -60,6 +64,9 @@ Verdict judge_sign(const dem::analysis::Estimate& ours, int sign, bool by_chance
 void Tally::add(Role role, Verdict verdict) {
   if (role == Role::fitted) ++fitted;
   if (role == Role::theory) ++theory;
+  if (role == Role::stated) ++stated;
+  if (role == Role::stated && verdict == Verdict::missed) ++stated_missed;
+  if (role == Role::derived) ++derived;
   if (role != Role::number) return;
   switch (verdict) {
     case Verdict::met:
@@ -106,6 +113,12 @@ std::string tally_text(const Tally& counts, std::string_view scale) {
                     : fmt::format("Of {} published numbers and trends, {}.", all, listed(parts));
   }
   std::vector<std::string> apart;
+  if (counts.stated > 0) {
+    apart.push_back(
+        fmt::format("{} published in words, for which the limits are ours{}", counts.stated,
+                    counts.stated_missed > 0 ? fmt::format(" ({} missed)", counts.stated_missed) : std::string()));
+  }
+  if (counts.derived > 0) apart.push_back(fmt::format("{} derived from published numbers", counts.derived));
   if (counts.fitted > 0) apart.push_back(fmt::format("{} that a choice was fitted to", counts.fitted));
   if (counts.theory > 0) {
     apart.push_back(fmt::format("{} that compare{} theory with theory", counts.theory, counts.theory == 1 ? "s" : ""));

@@ -33,10 +33,12 @@ enum class Role {
   number,       ///< a published number or trend
   fitted,       ///< a choice of the program was fitted to it
   theory,       ///< a formula compared with a formula
+  stated,       ///< published in words; the limits are this program's
+  derived,      ///< computed here from published numbers; the paper does not print it
   follows,      ///< follows from other rows
   sensitivity,  ///< another reading or variant of the row above it
 };
-std::string_view role_word(Role role);  ///< "number", "fitted", "theory", "follows", "sensitivity"
+std::string_view role_word(Role role);  ///< "number", "fitted", "theory", "stated", ...
 
 /// The values that are near enough to a published one.
 struct Band {
@@ -53,7 +55,8 @@ Verdict judge_sign(const dem::analysis::Estimate& ours, int sign, bool by_chance
 /// How many rows have which verdict. Rows that are not of role `number` are counted by role alone.
 struct Tally {
   int met = 0, missed = 0, undecided = 0, not_judged = 0, not_computed = 0;
-  int fitted = 0, theory = 0;
+  int fitted = 0, theory = 0, stated = 0, derived = 0;
+  int stated_missed = 0;  ///< of `stated`
   /// met to not_computed
   [[nodiscard]] int numbers() const { return met + missed + undecided + not_judged + not_computed; }
   void add(Role role, Verdict verdict);

@@ -160,7 +160,8 @@ TEST_CASE("only published numbers count as met or missed") {
   reports::Tally counts;
   for (const Verdict verdict :
        {Verdict::met, Verdict::missed, Verdict::undecided, Verdict::not_judged, Verdict::not_computed}) {
-    for (const Role role : {Role::number, Role::fitted, Role::theory, Role::follows, Role::sensitivity}) {
+    for (const Role role :
+         {Role::number, Role::fitted, Role::theory, Role::stated, Role::derived, Role::follows, Role::sensitivity}) {
       counts.add(role, verdict);
     }
   }
@@ -172,10 +173,14 @@ TEST_CASE("only published numbers count as met or missed") {
   CHECK(counts.numbers() == 5);
   CHECK(counts.fitted == 5);
   CHECK(counts.theory == 5);
+  CHECK(counts.stated == 5);
+  CHECK(counts.derived == 5);
   CHECK(reports::tally_text(counts, "paper") ==
         "Of 5 published numbers and trends, 1 is met, 1 missed, 1 undecided, 1 not judged (published at paper scale) "
         "and 1 not "
-        "computed. Counted separately: 5 that a choice was fitted to and 5 that compare theory with theory.");
+        "computed. Counted separately: 5 published in words, for which the limits are ours (1 missed), 5 derived from "
+        "published "
+        "numbers, 5 that a choice was fitted to and 5 that compare theory with theory.");
   CHECK(reports::tally_text({.met = 0, .missed = 0, .undecided = 0, .not_judged = 3}, "paper") ==
         "None of the 3 published numbers and trends is judged: they belong to the scale “paper”.");
   CHECK(reports::tally_text({.met = 0, .missed = 2}, "paper") ==
@@ -393,6 +398,30 @@ TEST_CASE("what stands before ours follows from the numbers that the statement s
   CHECK(standing({other}) == "");
 }
 
+TEST_CASE_FIXTURE(Fixture, "what a paper says in words or what follows from its numbers is no published number") {
+  const std::string near = value("200", R"({"relative": 0.1})");
+  const Comparison stated = one(near + R"(, "stated": "mainly")");
+  CHECK(stated.role == reports::Role::stated);
+  CHECK(stated.stated == "mainly");
+  CHECK(stated.verdict == Verdict::met);
+  const Comparison derived = one(near + R"(, "derived": "400 / 2")");
+  CHECK(derived.role == reports::Role::derived);
+  const auto counts = reports::Comparisons{"P", "draft", {stated, derived}}.tally();
+  CHECK(counts.numbers() == 0);
+  CHECK(counts.stated == 1);
+  CHECK(counts.derived == 1);
+  // Figures draw neither as published.
+  const auto entry = [&](const char* id, const char* more) {
+    return R"({"id": ")" + std::string(id) + R"(", "topics": [], "source": "S", "quantity": "Q", )" + near + more + "}";
+  };
+  dem::write_file(scratch / "papers/p/published.json", R"({"numbers": [)" + entry("a", "") + "," +
+                                                           entry("b", R"(, "stated": "mainly")") + "," +
+                                                           entry("c", R"(, "derived": "400 / 2")") + "]}");
+  const auto drawn = reports::published_numbers(study(), scratch / "papers");
+  REQUIRE(drawn.size() == 1);
+  CHECK(drawn[0].id == "a");
+}
+
 TEST_CASE_FIXTURE(Fixture, "an entry that says what it cannot mean is refused by name") {
   const auto refuses = [&](const std::string& rest, const char* what) {
     CAPTURE(rest);
@@ -405,6 +434,9 @@ TEST_CASE_FIXTURE(Fixture, "an entry that says what it cannot mean is refused by
   refuses(good + R"(, "follows": ["x"])", "follow");
   refuses(good + R"(, "fitted": "a", "theory": "b")", "one of");
   refuses(good + R"(, "fitted": "")", "says why");
+  refuses(good + R"(, "stated": "")", "the paper’s words");
+  refuses(good + R"(, "stated": "mainly", "theory": "b")", "one of");
+  refuses(good + R"(, "stated": "mainly", "derived": "b")", "not derived");
   refuses(good + R"(, "scale": "huge")", "huge");
   refuses(good + R"(, "readings": [{"id": "x", "reading": "r", "of": {}}])", "twice");
   refuses(value("0", R"({"relative": 0.1})"), "relative to nothing");
