@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/analysis/ending.h"
 #include "engine/analysis/ledger.h"
 #include "reports/figures/energy_colours.h"
 #include "reports/text.h"
@@ -121,18 +122,21 @@ double limit_of(const dem::Record& record) {
   return found == record.checks.end() ? std::nan("") : found->limit;
 }
 
-std::string shares_alt(const dem::Table& history) {
+std::string shares_alt(const dem::Record& record) {
+  const dem::Table& history = record.table("history");
   const auto terms = analysis::ledger_terms(history);
   const auto work = work_of(history, terms);
-  if (work.empty() || !(work.back() != 0)) return {};
+  const std::size_t end = analysis::end_of_loading(record);
+  if (work.empty() || !(work[end] != 0)) return {};
   std::vector<std::string> parts;
   for (const analysis::LedgerTerm& term : terms) {
     if (term.role != analysis::LedgerTerm::Role::share) continue;
     std::string label = term.label;
     label[0] = static_cast<char>(std::tolower(label[0]));
-    parts.push_back(label + " " + percent(history.real(term.column).back() / work.back(), 1));
+    parts.push_back(label + " " + percent(history.real(term.column)[end] / work[end], 1));
   }
-  return "of the work, at the end: " + listed(parts) + ".";
+  return std::string("shares of the work at the end of ") +
+         (analysis::has_end_of_loading(record) ? "loading: " : "the test: ") + listed(parts) + ".";
 }
 
 }  // namespace
@@ -163,13 +167,21 @@ FigureContent energy_figure(const StudyResult& study, std::string_view test, con
     const SeriesCase* item = kept[k];
     const dem::Table& history = item->record->table("history");
     render::Chart chart = ledger_chart(history, x_column, x_title, x_factor, reaches[k], unit);
+    if (analysis::is_followed(*item->record)) {
+      chart.marks.push_back({.kind = render::Mark::Kind::vertical,
+                             .x = x_factor * history.real(x_column)[analysis::end_of_loading(*item->record)],
+                             .y = 0,
+                             .label = "end of loading",
+                             .colour = {0, 0, 0},
+                             .line = render::Line::dot});
+    }
     const double first = reaches.front().energy, times = first > 0 ? reaches[k].energy / first : 1;
     content.panels.push_back({.id = item->id,
                               .caption = capital(item->label) + "." +
                                          (times == 1 ? ""
                                                      : fmt::format(" The energy axis is {} times that at {}.",
                                                                    number(times, 2), kept.front()->label)),
-                              .alt = item->label + ", " + shares_alt(history),
+                              .alt = item->label + ", " + shares_alt(*item->record),
                               .content = std::move(chart)});
     render::Series series = relative_residual(history, x_column, x_factor);
     series.label = item->label;
@@ -199,7 +211,7 @@ FigureContent energy_figure(const StudyResult& study, std::string_view test, con
          .alt = "Largest residual " + number(worst, 2) + " of the work, limit " + number(limit, 2) + ".",
          .content = residuals});
   }
-  const std::string shares = shares_alt(kept.front()->record->table("history"));
+  const std::string shares = shares_alt(*kept.front()->record);
   content.finding = fmt::format("{}The largest residual is {} of the work{}.",
                                 shares.empty() ? "" : "At " + kept.front()->label + ", " + shares + " ",
                                 number(worst, 2), std::isfinite(limit) ? " (limit " + number(limit, 2) + ")" : "");

@@ -85,7 +85,7 @@ void add_trends(FigureContent& content, const std::vector<Trend>& trends, const 
   if (table.rows.empty()) return;
   content.panels.push_back(
       {.id = "trends",
-       .caption = "Straight lines through the numbers of cracks, along " + std::string(axis.words) + ".",
+       .caption = "Slopes of straight lines through the numbers of cracks against " + std::string(axis.words) + ".",
        .alt = "",
        .content = table,
        .per_row = 1});
@@ -95,7 +95,7 @@ void add_trends(FigureContent& content, const std::vector<Trend>& trends, const 
   if (!unclear.empty())
     said.push_back(rising.empty() && falling.empty() ? "no class of cracks shows a clear trend"
                                                      : listed(unclear) + " cracks show no clear trend");
-  content.finding += " Along " + std::string(axis.words) + ", " + joined(said, "; ") + ".";
+  content.finding += " With " + std::string(axis.words) + ", " + joined(said, "; ") + ".";
 }
 
 std::string trend_words(const std::vector<SeriesCase>& cases, const ValueOf& value, std::string_view unit,
@@ -128,6 +128,15 @@ std::string estimate_text(const analysis::Estimate& estimate, int digits, bool i
                      number(estimate.high, digits));
 }
 
+std::string told(const analysis::Estimate& estimate, int digits, std::string_view unit) {
+  const std::string space = unit.empty() || unit == "°" ? "" : " ";
+  const std::string value = number(estimate.value, digits) + space + std::string(unit);
+  if (!estimate.has_interval()) return value + " (no interval from so few points)";
+  const bool is_known = estimate.low > 0 || estimate.high < 0;
+  return fmt::format("{} (95 % interval {} to {}{})", value, number(estimate.low, digits),
+                     number(estimate.high, digits), is_known ? "" : ": undecided");
+}
+
 std::optional<Panel> missing_cases(const StudyResult& study, std::string_view test) {
   TextTable table{{"Case", "Why it is not shown"}, {}};
   for (const CaseResult& result : study.cases) {
@@ -148,6 +157,21 @@ render::Series curve(const dem::Table& history, const CurveOf& of) {
     series.y.push_back(of.y_factor * y[i]);
   }
   return series;
+}
+
+void leave_room(render::Chart& chart) {
+  constexpr double room = 0.05;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const render::Series& series : chart.series) {
+    for (const double x : series.x) {
+      low = std::min(low, x);
+      high = std::max(high, x);
+    }
+  }
+  if (!(high > low)) return;
+  const double from = chart.x.low.value_or(std::min(low, 0.0)), length = high - from;
+  chart.x.high = high + room * length;
+  if (!chart.x.low) chart.x.low = from < 0 ? from - room * length : 0;
 }
 
 render::Series line_of(double low, double high, const std::function<double(double)>& y, int steps) {

@@ -54,6 +54,9 @@ std::string trend_words(const std::vector<SeriesCase>& cases, const dem::Quantit
                         const dem::Parameter& axis);
 /// "29.1 (95 % interval 27 to 31.2)", shorter in tables: "29.1 (27 to 31.2)".
 std::string estimate_text(const analysis::Estimate& estimate, int digits, bool in_table = false);
+/// In a sentence: "29.1 MPa (95 % interval 27 to 31.2)"; "... −10 to 61: undecided)" where the interval holds zero, so that
+/// the points tell not even a sign.
+std::string told(const analysis::Estimate& estimate, int digits, std::string_view unit = {});
 
 /// A table of the cases of a test that have no record, with the reason; nothing when all have one.
 std::optional<Panel> missing_cases(const StudyResult& study, std::string_view test);
@@ -69,6 +72,9 @@ render::Series curve(const dem::Table& history, const CurveOf& of);
 /// That curve of every case, in its colour and line, up to where x reaches `up_to`.
 void add_curves(render::Chart& chart, const std::vector<SeriesCase>& cases, const CurveOf& of,
                 double up_to = std::numeric_limits<double>::infinity());
+
+/// Ends the axis of x 5 % of its length beyond the last point of the curves, so that none falls along the frame.
+void leave_room(render::Chart& chart);
 
 /// A line through a function of x in equal steps from `low` to `high`; points that are not finite are left out.
 render::Series line_of(double low, double high, const std::function<double(double)>& y, int steps = 60);

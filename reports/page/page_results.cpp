@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "engine/analysis/ending.h"
 #include "engine/analysis/ledger.h"
 #include "engine/analysis/peaks.h"
 #include "engine/model/quantities.h"
@@ -49,6 +50,12 @@ std::string shorten_heads(std::vector<std::string>& heads, std::size_t from) {
   return joined(meanings, "; ") + ".";
 }
 
+// An energy at the end of loading: a test that is followed further does more work, of which nothing else of the report tells.
+double energy_at_end(const dem::Record& record, const std::string& column) {
+  const auto values = record.table("history").real(column);
+  return analysis::is_followed(record) ? values[analysis::end_of_loading(record)] : last_finite(values);
+}
+
 /// Cases of one test that have a ledger, and their largest energy: all tables of a test have one unit.
 struct Ledgers {
   std::vector<const CaseResult*> cases;
@@ -62,7 +69,7 @@ Ledgers ledgers_of(const std::vector<const CaseResult*>& group) {
     if (!history || analysis::ledger_terms(*history).empty()) continue;
     all.cases.push_back(result);
     for (const analysis::LedgerTerm& term : analysis::ledger_terms(*history)) {
-      all.largest = std::max(all.largest, std::abs(last_finite(history->real(term.column))));
+      all.largest = std::max(all.largest, std::abs(energy_at_end(*result->record, term.column)));
     }
   }
   return all;
@@ -95,7 +102,7 @@ PageData ledger_table(const StudyResult& study, std::span<const CaseResult* cons
     bool some = false;
     for (std::size_t i = 0; i < kept.size(); ++i) {
       const dem::Table& history = kept[i]->record->table("history");
-      const double value = history.has(term.column) ? last_finite(history.real(term.column)) : 0;
+      const double value = history.has(term.column) ? energy_at_end(*kept[i]->record, term.column) : 0;
       values.push_back(history.has(term.column) ? cell(value) : "–");
       some = some || value != 0;
       left[i] += term.role == analysis::LedgerTerm::Role::work    ? value
@@ -114,6 +121,8 @@ PageData ledger_table(const StudyResult& study, std::span<const CaseResult* cons
   PageData table;
   table.set("test", capital(test));
   table.set("unit", unit);
+  table.set("state",
+            analysis::has_end_of_loading(*kept.front()->record) ? "at the end of loading" : "at the end of the test");
   table.set("key", key);
   table.set("lettered", !key.empty());
   table.set("heads", cells(heads));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace reports {
@@ -40,6 +41,29 @@ std::size_t index_length(std::string_view after) {
   return ends && n <= most ? n : 0;
 }
 
+/// The letter or digit of an index that is written as a character of its own ("₃"); empty for any other.
+std::string_view lowered(std::string_view rest) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 17> indices{{{"₀", "0"},
+                                                                                   {"₁", "1"},
+                                                                                   {"₂", "2"},
+                                                                                   {"₃", "3"},
+                                                                                   {"₄", "4"},
+                                                                                   {"₅", "5"},
+                                                                                   {"₆", "6"},
+                                                                                   {"₇", "7"},
+                                                                                   {"₈", "8"},
+                                                                                   {"₉", "9"},
+                                                                                   {"ₐ", "a"},
+                                                                                   {"ₘ", "m"},
+                                                                                   {"ₙ", "n"},
+                                                                                   {"ₚ", "p"},
+                                                                                   {"ₛ", "s"},
+                                                                                   {"ᵢ", "i"},
+                                                                                   {"ᵤ", "u"}}};
+  const auto found = std::ranges::find_if(indices, [&](const auto& one) { return rest.starts_with(one.first); });
+  return found == indices.end() ? std::string_view() : found->second;
+}
+
 std::string with_indices(std::string_view text) {
   constexpr std::array<std::string_view, 3> bare{"σci", "σcd", "σc"};  // as the papers write them in a line
   std::string out;
@@ -55,6 +79,12 @@ std::string with_indices(std::string_view text) {
         i += known->size();
         continue;
       }
+    }
+    if (!lowered(rest).empty()) {
+      std::string index;
+      for (; !lowered(text.substr(i)).empty(); i += 3) index += lowered(text.substr(i));  // each has three bytes
+      out += "<sub>" + index + "</sub>";
+      continue;
     }
     const std::string_view symbol = before(text, i);
     const std::size_t start = i - symbol.size();

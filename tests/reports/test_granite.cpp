@@ -135,7 +135,7 @@ TEST_CASE("figures under confinement say what the records hold") {
   const auto& slopes = std::get<reports::TextTable>(counts.panels[2].content);
   CHECK(slopes.head[1] == "Slope per MPa of confining pressure");
   CHECK(slopes.rows.size() == 4);
-  CHECK(has(counts.finding, "Along the confining pressure, "));
+  CHECK(has(counts.finding, "With the confining pressure, "));
 }
 
 TEST_CASE("a plateau that the start of the platens leaves uneven is told") {
@@ -308,7 +308,7 @@ TEST_CASE("a specimen that is cut through is two parts, and a cut is the plane o
   cracks.add("contact", "", contact);
   set_table(record, cracks);
   CHECK(has(reports::texture::fragments(made.study()).finding, "2 parts above 5 % of the volume"));
-  CHECK(has(reports::texture::crack_directions(made.study()).finding, "dips 0° towards"));
+  CHECK(has(reports::texture::crack_directions(made.study()).finding, "dipping 0° towards"));
 }
 
 TEST_CASE("figures stand with one case and with none") {

@@ -8,9 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "engine/analysis/ending.h"
 #include "engine/analysis/ledger.h"
 #include "engine/core/files.h"
 #include "engine/texture/quantities.h"
+#include "reports/figures/parts.h"
 #include "reports/output/csv.h"
 #include "reports/output/drawing.h"
 #include "reports/output/pdf.h"
@@ -49,7 +51,8 @@ TEST_CASE("a page is set in type: indices, no-break spaces, degrees, apostrophes
       {"key measure.rate_bias of ldb_texture, a_b.toml, x_y_z",
        "key measure.rate_bias of ldb_texture, a_b.toml, x_y_z"},
       {"Section 4.1, Fig. 14c and Eqs. 7 and 8", "Section~4.1, Fig.~14c and Eqs.~7 and 8"},
-      {"AR 1 to 3, σ₃ 10 MPa, dip 45°", "AR~1 to 3, σ₃~10~MPa, dip~45°"},
+      {"AR 1 to 3, σ₃ 10 MPa, dip 45°", "AR~1 to 3, σ<sub>3</sub>~10~MPa, dip~45°"},
+      {"log₁₀ E of Tᵤ", "log<sub>10</sub> E of T<sub>u</sub>"},
       {"15.8 ± 0.6, p = 0.03, (1.7 ± 0.4) × 10⁻⁵ N/m", "15.8~±~0.6, p~=~0.03, (1.7~±~0.4)~×~10⁻⁵~N/m"},
       {"6.25 mm × 12.5 mm, ± 5 °, 3 points", "6.25~mm~×~12.5~mm, ±~5°, 3 points"},
       {"the grains&apos; ratio, the paper's own 'word'", "the grains’ ratio, the paper’s own 'word’"},
@@ -146,6 +149,45 @@ TEST_CASE("a table of texts is numbers in its CSV, with units in the heads") {
            {{"dip", "45°", "x"}, {"radius", "0.35 mm", "y"}, {"ratios", "1, 2, 3", "z"}, {"range", "9–13 mm", ""}}}) ==
       "Parameter,\"Value, from\",\"Value, to\",\"Value, unit\",\"Value, in words\",Value\r\n"
       "dip,45,,°,,x\r\nradius,0.35,,mm,,y\r\nratios,,,,\"1, 2, 3\",z\r\nrange,9,13,mm,,\r\n");
+}
+
+TEST_CASE("a fitted value is told with its interval, and as undecided where that holds zero") {
+  const double none = std::nan("");
+  CHECK(reports::told({25.6, 19, 31}, 3, "MPa") == "25.6 MPa (95 % interval 19.0 to 31.0)");
+  CHECK(reports::told({62.5, -18.7, 76.6}, 3, "°") == "62.5° (95 % interval \u221218.7 to 76.6: undecided)");
+  CHECK(reports::told({16, none, none}, 3) == "16.0 (no interval from so few points)");
+}
+
+TEST_CASE("curves end before the frame") {
+  const auto chart_of = [](std::initializer_list<std::vector<double>> curves) {
+    render::Chart chart;
+    for (const std::vector<double>& x : curves) chart.series.emplace_back().x = x;
+    return chart;
+  };
+  render::Chart chart = chart_of({{0, 2}, {0, 1}});
+  reports::leave_room(chart);
+  CHECK(*chart.x.low == 0);
+  CHECK(*chart.x.high == doctest::Approx(2.1));
+  chart = chart_of({{0, -2, 2}});
+  reports::leave_room(chart);
+  CHECK(*chart.x.low == doctest::Approx(-2.2));
+  CHECK(*chart.x.high == doctest::Approx(2.2));
+}
+
+TEST_CASE("the end of loading is found in the history of a test that was followed further") {
+  dem::Record record;
+  dem::Table history{"history", {}, {}};
+  history.add("axial_strain", "1", std::vector<double>{0, 1e-3, 2e-3, 1.5e-3, 2e-3});  // the gauge springs back
+  history.add("axial_stress", "Pa", std::vector<double>{0, 5e7, 1e8, 8e7, 1e7});
+  record.tables.push_back(history);
+  CHECK_FALSE(dem::analysis::has_end_of_loading(record));
+  CHECK(dem::analysis::end_of_loading(record) == 4);
+  CHECK_FALSE(dem::analysis::is_followed(record));
+  record.tables.push_back({"snapshots/0000", {{"moment", "peak"}, {"strain", "0.002"}, {"stress", "1e+08"}}, {}});
+  record.tables.push_back({"snapshots/0001", {{"moment", "end"}, {"strain", "0.0015"}, {"stress", "8e+07"}}, {}});
+  CHECK(dem::analysis::has_end_of_loading(record));
+  CHECK(dem::analysis::end_of_loading(record) == 3);
+  CHECK(dem::analysis::is_followed(record));
 }
 
 TEST_CASE("a sampled curve keeps its ends, its peak and its lowest point") {

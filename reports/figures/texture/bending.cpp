@@ -51,7 +51,7 @@ Panel cracks_panel(const StudyResult& study, const SeriesCase& item, const Bent&
   Panel panel = cracks_at_end(study, item,
                               "The " + what +
                                   " on its strips, cut along its middle plane, with the cracks near it at the "
-                                  "end of the test" +
+                                  "end of loading" +
                                   (bent.notch > 0 ? "; the notch is the thick line." : "."),
                               picture_width, load);
   return panel;
@@ -92,8 +92,8 @@ analysis::Estimate mean_over(const SeriesCase& item, const dem::Quantity& quanti
 }
 
 // In a sentence: with its interval, where several specimens give one.
-std::string said_of(const SeriesCase& item, const analysis::Estimate& mean) {
-  return item.repeats.size() > 1 ? estimate_text(mean, 3) : number(mean.value, 3);
+std::string said_of(const SeriesCase& item, const analysis::Estimate& mean, const std::string& unit) {
+  return item.repeats.size() > 1 ? told(mean, 3, unit) : number(mean.value, 3) + " " + unit;
 }
 
 std::string cell(const SeriesCase& item, const dem::Quantity& quantity) {
@@ -129,9 +129,10 @@ FigureContent bending_test(const StudyResult& study) {
                           cell(item, quantity::fracture_toughness), cell(item, quantity::mouth_opening)});
     const analysis::Estimate rupture = mean_over(item, quantity::modulus_of_rupture),
                              toughness = mean_over(item, quantity::fracture_toughness);
-    if (std::isfinite(rupture.value)) said.push_back("the modulus of rupture is " + said_of(item, rupture) + " MPa");
+    if (std::isfinite(rupture.value)) said.push_back("the modulus of rupture is " + said_of(item, rupture, "MPa"));
     if (std::isfinite(toughness.value)) {
-      said.push_back("K_Ic by the formula of ASTM E399 is " + said_of(item, toughness) + " MPa√m with a " + item.label);
+      said.push_back("K_Ic by the formula of ASTM E399 is " + said_of(item, toughness, "MPa√m") + " with a " +
+                     item.label);
     }
   }
   add_loads(content, cases, area, "the depth W");
@@ -161,8 +162,8 @@ FigureContent half_disc_test(const StudyResult& study) {
   content.panels.push_back(table_panel(std::move(table)));
   const analysis::Estimate toughness = mean_over(cases.front(), quantity::fracture_toughness);
   if (std::isfinite(toughness.value)) {
-    content.finding = fmt::format("K_Ic by the ISRM suggested method (Kuruppu et al. 2014) is {} MPa√m.",
-                                  said_of(cases.front(), toughness));
+    content.finding = fmt::format("K_Ic by the ISRM suggested method (Kuruppu et al. 2014) is {}.",
+                                  said_of(cases.front(), toughness, "MPa√m"));
     if (diameter < least_diameter) {
       content.finding += fmt::format(
           " The half disc is {} mm wide. The method asks for {:g} mm; smaller half discs give a lower K_Ic.",

@@ -133,12 +133,12 @@ render::Chart ratios_chart(const StudyResult& study, const std::vector<SeriesCas
   bars.colours = {render::palette(0)};
   bars.values.resize(1);
   bars.errors.resize(1);
-  bars.print_values = true;
-  bars.value_format = "{:.2f}";
   double high = 1;
   for (std::size_t k = 0; k < cases.size(); ++k) {
     const double half = ratios[k].has_interval() ? ratios[k].high - ratios[k].value : std::nan("");
-    bars.categories.push_back(cases[k].label);
+    // The value with the name: above its bar the lines would strike it.
+    const std::string value = std::isfinite(ratios[k].value) ? ": " + fixed(ratios[k].value, 2) : "";
+    bars.categories.push_back(cases[k].label + value);
     bars.values[0].push_back(ratios[k].value);
     bars.errors[0].push_back(half);
     if (std::isfinite(ratios[k].value)) high = std::max(high, ratios[k].value + (std::isfinite(half) ? half : 0));
@@ -287,7 +287,7 @@ FigureContent brazilian_cracks(const StudyResult& study) {
          .per_row = 4});
     SeriesCase later = item;
     later.label += ", at the end";
-    Panel end = cracks_at_end(study, later, "Cracks near the section at the end of the test.", picture_width,
+    Panel end = cracks_at_end(study, later, "Cracks near the section at the end of loading.", picture_width,
                               [&](render::Scene& loaded) { add_platens(loaded, item); });
     end.id = "end_" + item.id;
     end.per_row = 4;

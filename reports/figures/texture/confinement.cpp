@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/analysis/ending.h"
 #include "engine/analysis/envelopes.h"
 #include "engine/analysis/softening.h"
 #include "reports/figures/table.h"
@@ -77,6 +78,35 @@ void mark_initiation(render::Chart& chart, const std::vector<SeriesCase>& cases,
     marks.y.push_back(y);
   }
   if (!marks.x.empty()) chart.series.push_back(marks);
+}
+
+// Where cracks, fragments, events and energies are given: the tests go on from there for their residual strengths alone.
+bool mark_end_of_loading(render::Chart& chart, const std::vector<SeriesCase>& cases) {
+  render::Series marks{.label = "end of loading",
+                       .x = {},
+                       .y = {},
+                       .colour = {0, 0, 0},
+                       .line = render::Line::none,
+                       .marker = render::Marker::cross,
+                       .y_error = {}};
+  for (const SeriesCase& item : cases) {
+    if (!analysis::is_followed(*item.record)) continue;
+    const dem::Table& history = item.record->table("history");
+    const std::size_t end = analysis::end_of_loading(*item.record);
+    marks.x.push_back(100 * history.real("axial_strain")[end]);
+    marks.y.push_back(1e-6 * history.real("axial_stress")[end]);
+  }
+  if (marks.x.empty()) return false;
+  chart.series.push_back(std::move(marks));
+  return true;
+}
+
+// "the end of loading, where the stress has fallen to 80 % of its peak or the strain has come to 1.5 times that of the peak"
+std::string end_of_loading_words(const dem::Scenario& scenario) {
+  const double limit = scenario.real("compression.strain_limit");
+  return "the end of loading, where the stress has fallen to " + percent(scenario.real("compression.stop"), 0) +
+         " of its peak" +
+         (limit > 0 ? fmt::format(" or the strain has come to {:g} times that of the peak", limit) : std::string());
 }
 
 // Half the range of the axial stiffness over its mean where its plateau is read, between 10 and 25 % of the way to the peak:
@@ -187,7 +217,8 @@ render::Chart envelope_chart(const StudyResult& study, const analysis::Envelopes
     if (!series.x.empty()) chart.series.push_back(series);
   };
   if (found.peak_fit)
-    line("our fits", peak_colour, render::Line::solid, [&](double x) { return found.peak_fit->at(x); });
+    line("our fits, each in the colour of its points", peak_colour, render::Line::solid,
+         [&](double x) { return found.peak_fit->at(x); });
   if (found.damage_fit) line("", damage_colour, render::Line::solid, [&](double x) { return found.damage_fit->at(x); });
   if (by_stiffness.fit)
     line("", initiation_colour, render::Line::solid, [&](double x) { return by_stiffness.fit->at(x); });
@@ -196,7 +227,8 @@ render::Chart envelope_chart(const StudyResult& study, const analysis::Envelopes
   const auto published = [&](const char* id) { return study.published_value(id); };
   const double sigma_c = published("envelope_peak_sigma_c"), intercept = published("initiation_intercept"),
                slope = published("initiation_slope");
-  line("published fits", peak_colour, render::Line::dash, Published{sigma_c, published("envelope_peak_m"), 1});
+  line("published fits, in the same colours", peak_colour, render::Line::dash,
+       Published{sigma_c, published("envelope_peak_m"), 1});
   line("", damage_colour, render::Line::dash,
        Published{sigma_c, published("envelope_damage_m"), published("envelope_damage_s")});
   line("", strain_colour, render::Line::dash, [&](double x) { return intercept + slope * x; });
@@ -249,13 +281,20 @@ FigureContent confinement_curves(const StudyResult& study) {
   const auto cases = confined(study);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
-  const std::string peaks = by_case(cases, peak_stress, 4, "MPa");
+  const std::string peaks = by_case(cases, peak_stress, 3, "MPa");
   const std::string strains = by_case(cases, quantity::initiation_strain, 2);
   render::Chart whole = against_strain(cases, {"axial_stress", "Axial stress σ₁ (MPa)", 1e-6}, 1e300);
   whole.left.low = 0;
+  leave_room(whole);
+  const bool followed = mark_end_of_loading(whole, cases) && study.scenario;
   content.panels.push_back(
       {.id = "stress",
-       .caption = "Axial stress against axial strain, from the isotropic state, to the end of the test.",
+       .caption = followed
+                      ? fmt::format("Axial stress against axial strain, from the isotropic state to {:g} times the "
+                                    "strain of the peak. Crosses: {}; cracks, fragments, emission and energies are "
+                                    "given at it.",
+                                    study.scenario->real("compression.follow"), end_of_loading_words(*study.scenario))
+                      : "Axial stress against axial strain, from the isotropic state to the end of loading.",
        .alt = "Stress-strain curves; peaks of " + peaks + ".",
        .content = whole});
   render::Chart start = against_strain(cases, {"axial_stress", "Axial stress σ₁ (MPa)", 1e-6}, small_strain(cases));
@@ -312,11 +351,10 @@ FigureContent confinement_envelopes(const StudyResult& study) {
   const auto tension = tensile_strengths(study);
   std::vector<std::string> said;
   if (found.peak_fit) {
-    said.push_back("peak with σc = UCS, " + number(found.ucs, 4) + " MPa, and m " + number(found.peak_fit->m.value, 3));
+    said.push_back("peak with σc = UCS, " + number(found.ucs, 3) + " MPa, and m " + told(found.peak_fit->m, 3));
   }
   if (found.damage_fit) {
-    said.push_back("crack damage with m " + number(found.damage_fit->m.value, 3) + " and s " +
-                   number(found.damage_fit->s.value, 2));
+    said.push_back("crack damage with m " + told(found.damage_fit->m, 3) + " and s " + told(found.damage_fit->s, 2));
   }
   const std::string fits = said.empty() ? "too few pressures for a fit" : joined(said, "; ");
   content.panels.push_back(
@@ -366,7 +404,7 @@ FigureContent confinement_after_peak(const StudyResult& study) {
   chart.left.title = axis_title(quantity::residual_over_peak);
   chart.left.low = 0;
   chart.left.high = 1.1;
-  series.label = "at the end";
+  series.label = "where the test was followed to";
   chart.series.push_back(series);
   const double reach = analysis::common_reach(points_of(cases));
   const ValueOf equal = analysis::stress_after_peak(reach);
@@ -380,9 +418,14 @@ FigureContent confinement_after_peak(const StudyResult& study) {
   const std::string ratios = by_case(cases, residual, 2, "");
   content.panels.push_back(
       {.id = "residual",
-       .caption = "Residual stress over the peak: the mean over the last 5 % of the strain range that all tests "
-                  "share, in multiples of each test’s peak strain; "
-                  "and the stress at one and the same strain after the peak, as far as the shortest test goes.",
+       .caption =
+           study.scenario
+               ? fmt::format(
+                     "Residual stress over the peak: the mean over the last 5 % of the strain that each test was "
+                     "followed to, {:g} times that of its peak; and the stress at one and the same strain after "
+                     "the peak, as far as the shortest test goes.",
+                     study.scenario->real("compression.follow"))
+               : "Residual stress over the peak.",
        .alt = "Residual over peak " + ratios + "; at " + same_strain + " " + by_case(cases, equal, 2, "") + ".",
        .content = chart});
   TextTable servo{{"Confining pressure (MPa)", "Largest error of the servo (%)"}, {}};

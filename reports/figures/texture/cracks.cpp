@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "engine/analysis/orientation.h"
 #include "reports/figures/table.h"
 #include "reports/figures/texture/parts.h"
 #include "reports/text.h"
@@ -93,6 +94,9 @@ std::string with_its(const std::vector<SeriesCase>& cases) {
 std::string crack_alt(const dem::Record& record, std::size_t count, const std::string& what) {
   return what + " " + crack_words(crack_numbers(record, count)) + ".";
 }
+
+// The measure of a mode of failure: splitting along the axis has small angles.
+double mean_angle(const dem::Record& record) { return analysis::orientation_of(record.table("cracks"), 0).mean; }
 
 struct Stage {
   std::string_view moment, name, said;
@@ -196,7 +200,7 @@ std::string discs_note(double scale) {
 FigureContent crack_maps(const StudyResult& study) {
   FigureContent content;
   content.statement = "The failure modes at aspect ratios 1, 2 and 3 are similar.";
-  content.agreement = Agreement::undecided;
+  content.rows = {"failure_mode_with_ar"};
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   const int per_row = cases.size() <= 3 ? 3 : 4;
@@ -223,6 +227,7 @@ FigureContent crack_maps(const StudyResult& study) {
     densities.push_back(crack_density(*item.record, all_cracks));
     densest = std::max(densest, densities.back().largest());
   }
+  densest = end_of_bar(densest);
   for (std::size_t i = 0; i < cases.size() && densest > 0; ++i) {
     content.panels.push_back({.id = "density_" + cases[i].id,
                               .caption = density_caption,
@@ -237,7 +242,8 @@ FigureContent crack_maps(const StudyResult& study) {
     totals.push_back(count(static_cast<double>(total)) + " at " + item.label);
   }
   if (!totals.empty()) content.finding = "Cracks at the end of loading: " + listed(totals) + ".";
-  if (content.agreement) content.finding += " The failure mode is not measured; compare by eye.";
+  if (!totals.empty())
+    content.finding += " Their mean angle to the axis is " + by_case(cases, mean_angle, 3, "°") + ".";
   return content;
 }
 
@@ -292,6 +298,7 @@ FigureContent crack_counts(const StudyResult& study) {
 FigureContent dip_crack_maps(const StudyResult& study) {
   FigureContent content = crack_maps(study);
   content.statement = "The dip of the long axes has little influence on the failure mode.";
+  content.rows = {"failure_mode_with_dip"};
   return content;
 }
 
@@ -305,12 +312,10 @@ FigureContent dip_crack_counts(const StudyResult& study) {
 
 FigureContent confinement_crack_maps(const StudyResult& study) {
   FigureContent content = crack_maps(study);
-  content.finding = content.finding.substr(0, content.finding.find(" The failure mode"));
   content.statement =
       "With confining pressure the number of cracks rises, above all that of intra-grain shear cracks; the failure "
       "mode turns from axial splitting to predominantly shear.";
-  content.rows = {"trend_cracks_with_pressure", "trend_intra_shear_with_pressure"};
-  content.agreement.reset();
+  content.rows = {"trend_cracks_with_pressure", "trend_intra_shear_with_pressure", "trend_crack_angle_with_pressure"};
   return content;
 }
 
@@ -369,6 +374,7 @@ FigureContent crack_stages(const StudyResult& study) {
         note_panel("none", "Stages of cracking.", "The record of " + base.record->case_id + " keeps no snapshots."));
     return content;
   }
+  densest = end_of_bar(densest);
   content.panels.insert(content.panels.end(), discs.begin(), discs.end());
   content.panels.insert(content.panels.end(), sections.begin(), sections.end());
   for (const auto& [stage, density] : densities) {
@@ -386,12 +392,9 @@ FigureContent crack_stages(const StudyResult& study) {
                             .per_row = 1});
   content.finding = "At " + base.label + ", cracks so far: " + listed(said) + ".";
   if (const dem::Table* growth = snapshot(*base.record, "stable_growth")) {
-    content.finding += " In stable growth: " + crack_words(crack_numbers(*base.record, cracks_so_far(*growth))) + ".";
-  }
-  const dem::Table* first = snapshot(*base.record, "stable_growth");
-  if (first) {
-    const std::string boundary = weakest_boundary(*base.record, cracks_so_far(*first));
-    if (!boundary.empty()) content.finding += " In stable growth " + boundary + ".";
+    const std::string boundary = weakest_boundary(*base.record, cracks_so_far(*growth));
+    content.finding += " In stable growth: " + crack_words(crack_numbers(*base.record, cracks_so_far(*growth))) +
+                       (boundary.empty() ? "." : "; " + boundary + ".");
   }
   return content;
 }

@@ -1,6 +1,7 @@
 // Which way cracks lie: poles on equal-area nets with contoured density, the plane at its maximum, roses of strike.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/analysis/directions.h"
@@ -18,7 +19,8 @@ constexpr std::size_t fewest = 10, strikes = 18;
 struct Found {
   std::string label;
   analysis::Poles poles;
-  double area = 0;  // mm^2
+  double area = 0;       // mm^2
+  bool is_case = false;  // of the swept parameter, and not a class or another test
   std::optional<analysis::Maximum> maximum;
 };
 
@@ -31,7 +33,7 @@ Found found_in(const dem::Record& record, std::string label, int place = -1, int
 }
 
 std::string plane_words(const analysis::Maximum& m) {
-  return fmt::format("dips {}° towards {}°", number(m.dip(), 2), count(std::round(m.dip_direction())));
+  return fmt::format("dipping {}° towards {}°", number(m.dip(), 2), count(std::round(m.dip_direction())));
 }
 
 Net net_of(const Found& found) {
@@ -59,9 +61,9 @@ std::vector<std::string> row_of(const Found& found) {
 }
 
 std::string words_of(const Found& found) {
-  if (!found.maximum) return fmt::format("{}: {} poles, too few", found.label, found.poles.weight.size());
-  return fmt::format("{}: {} times uniform, where the plane {}", found.label, number(found.maximum->times_uniform, 2),
-                     plane_words(*found.maximum));
+  if (!found.maximum) return fmt::format("too few poles ({}) in {}", found.poles.weight.size(), found.label);
+  return fmt::format("{} times uniform {} {} (plane {})", number(found.maximum->times_uniform, 2),
+                     found.is_case ? "at" : "in", found.label, plane_words(*found.maximum));
 }
 
 std::string all_words(const std::vector<Found>& found) {
@@ -70,10 +72,17 @@ std::string all_words(const std::vector<Found>& found) {
   return joined(said, "; ");
 }
 
-std::string nets_of(const std::vector<Found>& found) {
+std::string nets_of(const std::vector<Found>& found, double largest) {
   std::vector<Net> nets;
   for (const Found& one : found) nets.push_back(net_of(one));
-  return nets_drawing(nets);
+  return nets_drawing(nets, largest);
+}
+
+double largest_of(const std::vector<Found>& found) {
+  double largest = 0;
+  for (const Found& one : found)
+    if (one.maximum) largest = std::max(largest, one.maximum->times_uniform);
+  return largest;
 }
 
 }  // namespace
@@ -84,27 +93,31 @@ FigureContent crack_directions(const StudyResult& study) {
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   std::vector<Found> found;
   for (const SeriesCase& item : pressed) found.push_back(found_in(*item.record, item.label));
-  if (!pulled.empty()) found.push_back(found_in(*pulled.front().record, "direct tension"));
+  for (Found& one : found) one.is_case = true;
+  if (!pulled.empty()) found.push_back(found_in(*pulled.front().record, tension_label(study, pulled.front())));
   std::erase_if(found, [](const Found& one) { return one.poles.weight.empty(); });
   if (found.empty()) return content;
-  content.panels.push_back(
-      {.id = "nets",
-       .caption = "Poles of all cracks on the lower hemisphere, equal areas, weighted by crack area (one pole per "
-                  "contact and mode): density by the kernel of Kamb and Vollmer; the load is along z, "
-                  "the middle of the net.",
-       .alt = all_words(found) + ".",
-       .content = nets_of(found),
-       .per_row = 1,
-       .whole_width = true});
   std::vector<Found> classes;
   if (!pressed.empty()) {
     for (const CrackClass& one : crack_classes())
       classes.push_back(found_in(*pressed.front().record, std::string(one.name), one.place, one.mode));
     std::erase_if(classes, [](const Found& one) { return one.poles.weight.empty(); });
+  }
+  const double largest = std::max(largest_of(found), largest_of(classes));  // one scale of greys for all nets
+  content.panels.push_back(
+      {.id = "nets",
+       .caption = "Poles of all cracks on the lower hemisphere, equal areas, weighted by crack area (one pole per "
+                  "contact and mode): density by the kernel of Kamb and Vollmer; the load is along z, "
+                  "the middle of the net. The nets of this figure share one scale.",
+       .alt = all_words(found) + ".",
+       .content = nets_of(found, largest),
+       .per_row = 1,
+       .whole_width = true});
+  if (!classes.empty()) {
     content.panels.push_back({.id = "classes",
                               .caption = "The same by class of crack: " + pressed.front().label + ".",
                               .alt = all_words(classes) + ".",
-                              .content = nets_of(classes),
+                              .content = nets_of(classes, largest),
                               .per_row = 1,
                               .whole_width = true});
   }

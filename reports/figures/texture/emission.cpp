@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/analysis/ending.h"
 #include "reports/figures/emission.h"
 #include "reports/figures/table.h"
 #include "reports/figures/texture/parts.h"
@@ -59,13 +60,15 @@ FigureContent acoustic_emission(const StudyResult& study) {
     if (auto found = emission_of(item, emitter_of(study, *item.record))) all.push_back(std::move(*found));
   if (!pulled.empty()) {
     SeriesCase looks = pulled.front();
-    looks.label = "direct tension";
+    looks.label = tension_label(study, pulled.front());
     looks.id = "tension";
     looks.colour = {0.35, 0.35, 0.35};
     looks.line = render::line_style(all.size());
     if (auto found = emission_of(looks, emitter_of(study, *looks.record))) all.push_back(std::move(*found));
   }
   add_emission(content, all);
+  if (std::ranges::any_of(all, [](const Emission& e) { return analysis::is_followed(*e.looks.record); }))
+    content.finding += " Events, their energies and that heat are those up to the end of loading.";
   return content;
 }
 

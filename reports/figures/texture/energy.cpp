@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/analysis/ending.h"
 #include "reports/figures/energy_colours.h"
 #include "reports/figures/table.h"
 #include "reports/figures/texture/parts.h"
@@ -41,6 +42,7 @@ void add_dissipated(FigureContent& content, const std::vector<SeriesCase>& cases
   const double volume = std::numbers::pi / 4 * size.diameter * size.diameter * size.height;
   render::Chart chart;
   std::vector<std::string> ends;
+  const std::size_t end = analysis::end_of_loading(record);
   for (std::size_t k = 0; k < dissipated.size(); ++k) {
     render::Series series;
     for (const double strain : history->real("platen_strain")) series.x.push_back(100 * strain);
@@ -48,9 +50,10 @@ void add_dissipated(FigureContent& content, const std::vector<SeriesCase>& cases
     series.label = dissipated[k].label;
     series.colour = colours_of(energy_of(dissipated[k].column)).line;
     series.line = render::line_style(k);
-    ends.push_back(fmt::format("{} {}", dissipated[k].label, number(series.y.back(), 3)));
+    ends.push_back(fmt::format("{} {}", dissipated[k].label, number(series.y[end], 3)));
     chart.series.push_back(std::move(series));
   }
+  leave_room(chart);
   const auto stress = history->real("axial_stress");
   const auto mark = [&](double strain, const char* label) {
     if (std::isfinite(strain))
@@ -66,6 +69,7 @@ void add_dissipated(FigureContent& content, const std::vector<SeriesCase>& cases
   if (record.has(quantity::crack_damage_strain))
     mark(strain_at(*history, "axial_strain", record.value(quantity::crack_damage_strain)), "σ_{cd}");
   mark(strain_at(*history, "axial_stress", *std::ranges::max_element(stress)), "peak");
+  if (analysis::is_followed(record)) mark(100 * history->real("platen_strain")[end], "end of loading");
   chart.x.title = "Strain of the ends (%)";
   chart.left.title = "Dissipated (kJ/m³)";
   chart.x.low = chart.left.low = 0;
@@ -75,7 +79,7 @@ void add_dissipated(FigureContent& content, const std::vector<SeriesCase>& cases
        .caption = capital(item.label) +
                   ": what was dissipated, per volume. Of a bond that breaks this is the strain energy that it "
                   "held; damping is numerical, against the motion of the particles.",
-       .alt = "Dissipated by the end, in kJ/m³: " + listed(ends) + ".",
+       .alt = "Dissipated by the end of loading, in kJ/m³: " + listed(ends) + ".",
        .content = std::move(chart)});
 }
 

@@ -15,7 +15,7 @@ FigureContent fragments(const StudyResult& study) {
   for (const SeriesCase& item : pressed) cases.push_back(broken_of(*item.record, item));
   if (!pulled.empty()) {
     SeriesCase looks = pulled.front();
-    looks.label = "direct tension";
+    looks.label = tension_label(study, pulled.front());
     looks.id = "tension";
     looks.colour = {0.35, 0.35, 0.35};
     looks.line = render::line_style(cases.size());
@@ -27,7 +27,7 @@ FigureContent fragments(const StudyResult& study) {
   for (const Broken& broken : cases) {
     content.panels.push_back(
         {.id = "apart_" + broken.id,
-         .caption = fmt::format("Parts that hold together at the end of the test, each moved outwards by {:g} of its "
+         .caption = fmt::format("Parts that hold together at the end of loading, each moved outwards by {:g} of its "
                                 "distance from the middle. Percentages are of the volume; the others are counts.",
                                 apart),
          .alt = fragments_words(broken) + ".",
@@ -56,7 +56,7 @@ FigureContent fragments(const StudyResult& study) {
                             .per_row = 2});
   content.panels.push_back(
       {.id = "table",
-       .caption = "Parts at the end of the test. Exponent of the power law of their numbers of particles "
+       .caption = "Parts at the end of loading. Exponent of the power law of their numbers of particles "
                   "n, the largest part left out: from 30 parts of five sizes on, and where the law is not "
                   "ruled out (p below 0.01: fewer than 1 % of samples of that law lie as far from it).",
        .alt = "",

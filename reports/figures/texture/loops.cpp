@@ -32,6 +32,7 @@ FigureContent unloading_loops_test(const StudyResult& study) {
   render::Series line = curve(first.table("history"), {"axial_strain", "axial_stress", 100, 1e-6});
   line.colour = render::palette(0);
   stress.series.push_back(line);
+  leave_room(stress);
   stress.legend = render::Chart::Legend::none;
   const double strength = first.value_or_nan(quantity::compressive_strength);
   content.panels.push_back({.id = "curve",

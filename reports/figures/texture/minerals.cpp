@@ -114,7 +114,7 @@ FigureContent mineral_properties(const StudyResult& study) {
     const auto m = envelopes_of(study, mineral).find("peak.m");
     table.rows.push_back(
         {mineral, beside(modulus, theirs.young_modulus, 3), beside(ts, theirs.tensile_strength, 3),
-         beside(ucs, theirs.ucs, 4),
+         beside(ucs, theirs.ucs, 3),
          (m ? estimate_text(*m, 3, true) : "–") + (std::isfinite(theirs.m) ? " / " + shortest(theirs.m) : "")});
     const auto plotted = [&](std::size_t k, double ours, double error, double published) {
       bars[k].ours.push_back(ours);
@@ -193,7 +193,7 @@ FigureContent mineral_envelopes(const StudyResult& study) {
     };
     if (found.peak_fit) {
       line(render::Line::solid, [&](double x) { return found.peak_fit->at(x); });
-      said.push_back(fmt::format("{} m {}", mineral, estimate_text(found.peak_fit->m, 3)));
+      said.push_back(fmt::format("{} m {}", mineral, told(found.peak_fit->m, 3)));
     }
     std::vector<LaboratoryPoint> measured;
     for (const LaboratoryNumber& one : study.laboratory) {

@@ -175,7 +175,7 @@ TextTable parameters(const analysis::Envelopes& found, const std::optional<analy
   TextTable table{{"Envelope of the peaks", "Parameter", "Value (95 % interval)"}, {}};
   if (found.peak_fit) {
     const analysis::EnvelopeFit& fit = *found.peak_fit;
-    table.rows.push_back({"Hoek-Brown, s = 1", "σc, the UCS (MPa)", number(fit.sigma_c.value, 4)});
+    table.rows.push_back({"Hoek-Brown, s = 1", "σc, the UCS (MPa)", number(fit.sigma_c.value, 3)});
     table.rows.push_back({"", "m", estimate_text(fit.m, 3, true)});
     table.rows.push_back(
         {"", "tensile strength of the envelope, σc/m (MPa)", number(fit.sigma_c.value / fit.m.value, 3)});
@@ -203,10 +203,10 @@ FigureContent confinement_mohr(const StudyResult& study) {
     const auto [p, q] = analysis::invariants(peak.sigma_3, peak.sigma_1);
     said.push_back(fmt::format("p {} and q {} MPa at σ₃ {} MPa", number(p, 3), number(q, 3), shortest(peak.sigma_3)));
   }
-  if (found.peak_fit) fits.push_back("Hoek-Brown with m " + number(found.peak_fit->m.value, 3));
+  if (found.peak_fit) fits.push_back("Hoek-Brown with m " + told(found.peak_fit->m, 3));
   if (coulomb)
-    fits.push_back(fmt::format("Coulomb with a friction angle of {}° and a cohesion of {} MPa",
-                               number(coulomb->friction_angle.value, 3), number(coulomb->cohesion, 3)));
+    fits.push_back(fmt::format("Coulomb with a friction angle of {} and a cohesion of {} MPa",
+                               told(coulomb->friction_angle, 3, "°"), number(coulomb->cohesion, 3)));
   content.panels.push_back({.id = "circles",
                             .caption =
                                 "Peaks, means over seeds, as Mohr circles on one scale, with the envelopes that "

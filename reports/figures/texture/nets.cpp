@@ -266,9 +266,9 @@ std::string key_of(const std::vector<double>& levels, double y, bool dots) {
 
 }  // namespace
 
-std::string nets_drawing(const std::vector<Net>& nets) {
+std::string nets_drawing(const std::vector<Net>& nets, double largest) {
   Rows rows = rows_of(nets);
-  double largest = 1;
+  largest = std::max(largest, 1.0);
   bool dots = false;
   for (const Net& net : nets) {
     if (net.maximum) largest = std::max(largest, net.maximum->times_uniform);

@@ -16,8 +16,9 @@ struct Net {
   analysis::Poles poles;
   std::optional<analysis::Maximum> maximum{};  ///< of ten poles or more: its plane is drawn
 };
-/// Nets beside each other with one key.
-std::string nets_drawing(const std::vector<Net>& nets);
+/// Nets beside each other with one key. `largest`: the density that the greys must reach, so that drawings of one figure share
+/// their levels; 0: the largest of these.
+std::string nets_drawing(const std::vector<Net>& nets, double largest = 0);
 
 /// One rose: shares by strike, 0 to 180 degrees from x, drawn over the whole circle. The area of a sector is its share.
 struct Rose {

@@ -99,7 +99,7 @@ FigureContent crack_orientation(const StudyResult& study) {
     angles.y.push_back(all.mean);
     bands.x.push_back(item.value);
     bands.y.push_back(band.inclination);
-    said.push_back(fmt::format("{}: {}° and {}°", item.label, number(all.mean, 3), number(band.inclination, 2)));
+    said.push_back(fmt::format("{}° and {}° at {}", number(all.mean, 3), number(band.inclination, 2), item.label));
   }
   content.panels.push_back(
       {.id = "angles",
@@ -132,7 +132,7 @@ FigureContent crack_orientation(const StudyResult& study) {
                             .content = table,
                             .per_row = 1});
   content.finding =
-      "Mean angle of the cracks to the axis, and angle of the band with most cracks: " + joined(said, "; ") + ".";
+      "Mean angle of the cracks to the axis and angle of the band with most cracks: " + joined(said, "; ") + ".";
   content.finding += standing.empty()
                          ? " No band holds more cracks than chance would put there."
                          : " The band holds more cracks than chance would put there at " + listed(standing) + ".";

@@ -96,6 +96,10 @@ std::array<render::Point, 2> frame_of(const Size& size) {
   return {{{-half, -half, size.z_low}, {half, half, size.z_low + size.height}}};
 }
 
+std::string tension_label(const StudyResult& study, const SeriesCase& item) {
+  return swept_axis(study).id == parameter::confining_pressure.id ? "direct tension" : "direct tension, " + item.label;
+}
+
 double mean_diameter(const dem::Record& record) {
   const auto radius = record.table("particles").real("radius");
   return radius.empty() ? 0
@@ -246,11 +250,17 @@ std::vector<render::Polyline> crack_traces(const dem::Record& record, std::size_
     const double half = std::sqrt(cracks.area[i] / std::numbers::pi);
     const double x = cracks.position[3 * i];
     const double z = cracks.position[3 * i + 2];
-    traces.push_back({{{x - half * along_x, 0, z - half * along_z}, {x + half * along_x, 0, z + half * along_z}},
-                      crack_classes()[k].colour,
-                      width,
-                      render::Line::solid,
-                      true});
+    const auto trace = [&](const render::Colour& colour, double wide) {
+      traces.push_back({{{x - half * along_x, 0, z - half * along_z}, {x + half * along_x, 0, z + half * along_z}},
+                        colour,
+                        wide,
+                        render::Line::solid,
+                        true});
+    };
+    // Black on a dark mineral, as biotite is, needs a light edge.
+    const render::Colour& colour = crack_classes()[k].colour;
+    if (std::max({colour.red, colour.green, colour.blue}) < 0.1) trace({1, 1, 1}, width + 1.4);
+    trace(colour, width);
   }
   return traces;
 }
@@ -300,6 +310,14 @@ Picture section_cracks(const StudyResult& study, const dem::Record& record, std:
 }
 
 double CrackDensity::largest() const { return value.empty() ? 0 : std::ranges::max(value); }
+
+double end_of_bar(double largest) {
+  if (!(largest > 0)) return 0;
+  const double power = std::pow(10, std::floor(std::log10(largest)));
+  for (const double step : {1.0, 1.5, 2.0, 3.0, 4.0, 6.0})
+    if (step * power >= largest) return step * power;
+  return 10 * power;
+}
 
 CrackDensity crack_density(const dem::Record& record, std::size_t count) {
   const Size size = size_of(record);
@@ -391,7 +409,7 @@ Picture density_picture(const dem::Record& record, const CrackDensity& density, 
   scene.cuts.push_back({{0, 0, 0}, {0, 1, 0}});
   scene.camera.frame = frame_of(size);
   scene.axes = true;
-  scene.bar = render::ColourBar{.title = "mm² per mm³", .low = 0, .high = high, .colours = {}};
+  scene.bar = render::ColourBar{.title = "cracks (mm²/mm³)", .low = 0, .high = high, .colours = {}};
   for (int k = 0; k < 64; ++k) scene.bar->colours.push_back(density_colour((k + 0.5) / 64));
   scene.width = width;
   scene.height = static_cast<int>(std::lround(width * std::max(0.5, size.height / size.diameter)));
@@ -418,7 +436,7 @@ Panel cracks_at_end(const StudyResult& study, const SeriesCase& item, std::strin
   if (load) load(picture.scene);
   return {.id = "cracks_" + item.id,
           .caption = std::move(caption),
-          .alt = "Cracks at the end: " + crack_words(crack_numbers(*item.record, all_cracks)) + ".",
+          .alt = "Cracks at the end of loading: " + crack_words(crack_numbers(*item.record, all_cracks)) + ".",
           .content = std::move(picture)};
 }
 
@@ -429,6 +447,7 @@ render::Chart load_curves(const std::vector<SeriesCase>& cases, const CurveOf& o
   chart.left.title = y_title;
   chart.left.low = 0;
   add_curves(chart, cases, of);
+  leave_room(chart);
   chart.legend = cases.size() > 1 ? render::Chart::Legend::below : render::Chart::Legend::none;
   return chart;
 }

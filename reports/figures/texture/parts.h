@@ -26,6 +26,9 @@ struct CrackClass {
 };
 const std::array<CrackClass, 4>& crack_classes();
 
+/// A direct tension beside compressions: "direct tension, AR 1"; without its place where the pressure is swept, which it has not.
+std::string tension_label(const StudyResult& study, const SeriesCase& item);
+
 /// Names of the minerals of a record by index.
 std::vector<std::string> minerals_of(const dem::Record& record);
 /// Its colour: the scenario's mineral[].colour, else by its place in the scenario's list: for Lac du Bonnet granite those
@@ -76,6 +79,8 @@ struct CrackDensity {
   [[nodiscard]] double largest() const;
 };
 CrackDensity crack_density(const dem::Record& record, std::size_t count);
+/// A round number, not below the largest value: a colour bar to there has a number at its end.
+double end_of_bar(double largest);
 /// Its picture, colours from zero to `high`.
 Picture density_picture(const dem::Record& record, const CrackDensity& density, double high, const std::string& label,
                         int width);
@@ -89,7 +94,7 @@ std::vector<LegendEntry> mineral_legend(const StudyResult& study, const dem::Rec
 
 /// Of platens, jaws and strips.
 inline constexpr render::Colour steel{0.35, 0.38, 0.42};
-/// A body at the end of its test, cut, with the cracks near the section; `load` adds what loads it to the scene.
+/// A body at the end of loading, cut, with the cracks near the section; `load` adds what loads it to the scene.
 Panel cracks_at_end(const StudyResult& study, const SeriesCase& item, std::string caption, int width,
                     const std::function<void(render::Scene&)>& load = {});
 /// A curve of each case from zero, its legend below.

@@ -79,6 +79,7 @@ render::Chart stress_and_strains(const StudyResult& study, const dem::Record& re
   lateral.line = render::Line::dash_dot;
   lateral.side = render::Side::right;
   chart.series = {stress, volume, lateral};
+  leave_room(chart);
   std::vector<PublishedPoint> published;
   for (const auto& [stress_id, strain_id] :
        {std::pair{"stress_at_0_1_percent_ar_1", "crack_initiation_strain"}, {"crack_damage", "crack_damage_strain"}})
@@ -108,7 +109,7 @@ render::Chart stress_and_strains(const StudyResult& study, const dem::Record& re
   return chart;
 }
 
-render::Chart stiffness_chart(const dem::Record& record) {
+render::Chart stiffness_chart(const StudyResult& study, const dem::Record& record) {
   const dem::Table& history = record.table("history");
   render::Chart chart;
   chart.x.title = "Axial strain (%)";
@@ -120,7 +121,10 @@ render::Chart stiffness_chart(const dem::Record& record) {
   render::Series stiffness = curve(history, {"axial_strain", "axial_stiffness", 100, 1e-9});
   stiffness.colour = render::palette(0);
   chart.series.push_back(stiffness);
+  leave_room(chart);
   for (const Level& one : levels_of(record)) chart.marks.push_back(moment(one.strain, one.symbol));
+  add_published(chart, render::Mark::Kind::horizontal, study.published_value("axial_stiffness"),
+                "published, about 70 GPa");
   chart.legend = render::Chart::Legend::none;
   return chart;
 }
@@ -150,6 +154,7 @@ render::Chart cracks_chart(const dem::Record& record) {
     shown.line = render::line_style(k);
     chart.series.push_back(shown);
   }
+  leave_room(chart);
   for (const Level& one : levels_of(record)) chart.marks.push_back(moment(one.strain, one.symbol));
   chart.legend = render::Chart::Legend::below;
   return chart;
@@ -170,6 +175,7 @@ render::Chart compression_curves(const std::vector<SeriesCase>& cases) {
       chart.series.push_back(series);
     }
   }
+  leave_room(chart);
   chart.legend = render::Chart::Legend::below;
   return chart;
 }
@@ -180,6 +186,7 @@ render::Chart volume_curves(const std::vector<SeriesCase>& cases) {
   chart.left.title = "Axial stress (MPa)";
   chart.left.low = 0;
   add_curves(chart, cases, {"volumetric_strain", "axial_stress", 100, 1e-6});
+  leave_room(chart);
   chart.legend = render::Chart::Legend::below;
   return chart;
 }
@@ -190,6 +197,7 @@ render::Chart tension_curves(const std::vector<SeriesCase>& cases) {
   chart.left.title = "Axial tension (MPa)";
   chart.left.low = 0;
   add_curves(chart, cases, {"axial_strain", "axial_stress", 100, 1e-6});
+  leave_room(chart);
   chart.legend = render::Chart::Legend::below;
   return chart;
 }
@@ -264,7 +272,7 @@ render::Chart ratio_chart(const StudyResult& study, const std::vector<Strength>&
   chart.left.title = "UCS/TS";
   render::Series ours{
       .label = "this study", .x = {}, .y = {}, .colour = render::palette(3), .marker = render::Marker::circle};
-  std::vector<PublishedPoint> published;
+  std::vector<PublishedPoint> published, derived;
   bool repeated = false;
   for (const Strength& one : found) {
     ours.x.push_back(one.at);
@@ -274,11 +282,15 @@ render::Chart ratio_chart(const StudyResult& study, const std::vector<Strength>&
     const double stated = published_at(study, axis, "ucs_ts_ratio", one.at);
     const double quotient =
         published_at(study, axis, "ucs", one.at) / published_at(study, axis, "tensile_strength", one.at);
-    published.push_back({one.at, std::isfinite(stated) ? stated : quotient});
+    if (std::isfinite(stated))
+      published.push_back({one.at, stated});
+    else
+      derived.push_back({one.at, quotient});
   }
   if (!repeated) ours.y_error.clear();
   chart.series.push_back(ours);
   add_published(chart, published, "published");
+  add_published(chart, derived, "of the published strengths");
   // A ratio has no bars from zero; a few percent of it should not look like a cliff either.
   double low = 1e300, high = 0;
   for (const render::Series& s : chart.series)
@@ -302,7 +314,7 @@ render::Chart ratio_chart(const StudyResult& study, const std::vector<Strength>&
 std::string strengths_alt(const std::vector<Strength>& found) {
   std::vector<std::string> parts;
   for (const Strength& one : found) {
-    parts.push_back(fmt::format("{}: UCS {} MPa, TS {} MPa, ratio {}", one.label, number(one.ucs.mean, 4),
+    parts.push_back(fmt::format("{}: UCS {} MPa, TS {} MPa, ratio {}", one.label, number(one.ucs.mean, 3),
                                 number(one.ts.mean, 3), number(one.ratio, 3)));
   }
   return joined(parts, "; ") + ".";
@@ -333,7 +345,7 @@ void add_strengths(FigureContent& content, const StudyResult& study, const std::
 
 std::string strengths_found(const std::vector<SeriesCase>& compression, const std::vector<SeriesCase>& tension,
                             const std::vector<Strength>& found, const dem::Parameter& axis) {
-  std::string text = "UCS " + by_case(compression, quantity::compressive_strength, 4) + "; TS " +
+  std::string text = "UCS " + by_case(compression, quantity::compressive_strength, 3) + "; TS " +
                      by_case(tension, quantity::tensile_strength, 3);
   std::vector<std::string> ratios;
   for (const Strength& one : found) ratios.push_back(number(one.ratio, 3));
@@ -393,8 +405,17 @@ std::vector<double> over_cases(const std::vector<SeriesCase>& cases, const dem::
 render::Chart mineral_chart(const StudyResult& study, const std::vector<SeriesCase>& cases) {
   render::Chart chart = share_chart("Share of the volume (%)", cases);
   for (const std::string& name : members_of(cases, quantity::mineral_share)) {
-    add_stack(chart, words(name), mineral_colour(study, words(name)), over_cases(cases, quantity::mineral_share, name));
+    auto values = over_cases(cases, quantity::mineral_share, name);
+    const double published = study.published_value("share_" + name);
+    if (std::isfinite(published)) values.push_back(published);
+    add_stack(chart, words(name), mineral_colour(study, words(name)), std::move(values));
   }
+  // Table 4, in a bar of its own, where it has every mineral.
+  const auto full = [&](const std::vector<double>& of) { return of.size() == cases.size() + 1; };
+  if (std::ranges::all_of(chart.bars->values, full))
+    chart.bars->categories.emplace_back("published");
+  else
+    for (std::vector<double>& of : chart.bars->values) of.resize(cases.size());
   return chart;
 }
 
@@ -466,7 +487,7 @@ FigureContent progressive_failure(const StudyResult& study) {
   std::vector<std::string> said;
   for (const Level& one : levels_of(base)) {
     said.push_back(
-        fmt::format("{} {} MPa at {} % strain", in_prose(one.symbol), number(one.stress, 4), number(one.strain, 3)));
+        fmt::format("{} {} MPa at {} % strain", in_prose(one.symbol), number(one.stress, 3), number(one.strain, 3)));
   }
   const std::string found = said.empty() ? "no characteristic stress was found" : joined(said, ", ");
   content.panels.push_back(
@@ -480,11 +501,11 @@ FigureContent progressive_failure(const StudyResult& study) {
                             .caption = "Axial stiffness (Eq. 9).",
                             .alt = "Axial stiffness against axial strain, from " +
                                    number(base.value_or_nan(quantity::young_modulus) * 1e-9, 3) + " GPa on.",
-                            .content = stiffness_chart(base)});
+                            .content = stiffness_chart(study, base)});
   content.panels.push_back({.id = "cracks",
                             .caption = "Cracks so far, by class.",
                             .alt = "Numbers of cracks against axial strain; " +
-                                   crack_words(crack_numbers(base, all_cracks)) + " at the end.",
+                                   crack_words(crack_numbers(base, all_cracks)) + " at the end of loading.",
                             .content = cracks_chart(base)});
   content.finding = "At " + cases.front().label + ": " + found + ".";
   const double at_published = base.value_or_nan(quantity::stress_at_strain);
@@ -523,7 +544,7 @@ FigureContent stress_strain(const StudyResult& study) {
   const auto compression = swept(study, test_compression);
   const auto tension = swept(study, test_tension);
   add_missing(content, study, {test_compression, test_tension});
-  const std::string ucs = by_case(compression, quantity::compressive_strength, 4);
+  const std::string ucs = by_case(compression, quantity::compressive_strength, 3);
   const std::string ts = by_case(tension, quantity::tensile_strength, 3);
   if (!compression.empty()) {
     content.panels.push_back({.id = "compression",
@@ -594,7 +615,7 @@ FigureContent group_shares(const StudyResult& study) {
     content.panels.push_back(
         {.id = "groups", .caption = "Every contact group.", .alt = "", .content = contact_table(cases)});
   }
-  content.finding = "Inter-grain contacts: " + inter + ".";
+  content.finding = "Inter-grain contacts are " + inter + " of all.";
   const std::string trend = trend_words(cases, quantity::inter_grain_share, swept_axis(study));
   if (!trend.empty()) content.finding += " Their share " + trend + ".";
   return content;

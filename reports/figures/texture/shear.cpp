@@ -1,6 +1,7 @@
 // Direct shear: stress and rise against displacement, and the line of Mohr and Coulomb through peaks and residuals.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -54,6 +55,61 @@ analysis::Estimate angle_of(const analysis::Estimate& slope) {
   return {degrees(slope.value), degrees(slope.low), degrees(slope.high)};
 }
 
+// Where a residual was read: over the last fifth of the shear displacement (quantity::residual_shear). Tests go to a multiple
+// of the displacement of their peak, so that each has another place.
+struct ResidualPlace {
+  double from = 0, to = 0;  ///< % of the edge
+  double rise = 0;          ///< of the upper half in between, µm
+};
+
+ResidualPlace place_of_residual(const dem::Record& record) {
+  const dem::Table& history = record.table("history");
+  const auto strain = history.real("platen_strain"), opening = history.real("opening");
+  const double from = 0.8 * strain.back();
+  const auto first =
+      static_cast<std::size_t>(std::ranges::find_if(strain, [&](double at) { return at >= from; }) - strain.begin());
+  return {100 * from, 100 * strain.back(), 1e6 * (opening.back() - opening[first])};
+}
+
+// Peak and residual of each case with their places; a case that was not sheared to the end has no residual.
+TextTable strengths_table(const std::vector<SeriesCase>& cases) {
+  TextTable table{
+      {"Case", "Peak (MPa)", "at (% of the edge)", "Residual (MPa)", "read at (% of the edge)", "Rise there (µm)"}, {}};
+  for (const SeriesCase& item : cases) {
+    const dem::Record& record = *item.record;
+    const render::Series stress = curve(record.table("history"), {"platen_strain", "axial_stress", 100, 1e-6});
+    if (stress.y.empty()) continue;
+    const auto peak = static_cast<std::size_t>(std::ranges::max_element(stress.y) - stress.y.begin());
+    std::vector<std::string> row{item.label, number(stress.y[peak], 3), number(stress.x[peak], 2), "–", "–", "–"};
+    if (record.has(quantity::residual_shear)) {
+      const ResidualPlace place = place_of_residual(record);
+      row[3] = number(record.value(quantity::residual_shear), 3);
+      row[4] = number(place.from, 2) + " to " + number(place.to, 2);
+      row[5] = number(place.rise, 2);
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+// "Each residual is the mean over the last fifth of its test, ..."
+std::string residual_words(const std::vector<SeriesCase>& cases) {
+  std::vector<std::string> places, rises;
+  double least = 1e300;
+  for (const SeriesCase& item : cases) {
+    if (!item.record->has(quantity::residual_shear)) continue;
+    const ResidualPlace place = place_of_residual(*item.record);
+    places.push_back(number(place.from, 2) + " to " + number(place.to, 2));
+    rises.push_back(number(place.rise, 2));
+    least = std::min(least, place.rise);
+  }
+  if (places.empty()) return {};
+  return " Each residual is the mean over the last fifth of its test, at displacements of " + listed(places) +
+         " % of the edge; over that stretch the upper half " +
+         (least > 0 ? "rises by another " + listed(rises) + " µm, so that none is at constant volume yet."
+                    : "moves by " + listed(rises) + " µm.");
+}
+
 }  // namespace
 
 FigureContent direct_shear_test(const StudyResult& study) {
@@ -76,9 +132,8 @@ FigureContent direct_shear_test(const StudyResult& study) {
        .alt = "Curves of the rise; at the peak " + by_case(cases, quantity::dilation_at_peak, 2) + ".",
        .content = std::move(rise)});
   for (const SeriesCase& item : cases) {
-    content.panels.push_back(
-        cracks_at_end(study, item, "Cracks near the middle section at the end of the test; the halves slide along x.",
-                      picture_width));
+    content.panels.push_back(cracks_at_end(
+        study, item, "Cracks near the middle section at the end of loading; the halves slide along x.", picture_width));
     content.panels.back().per_row = 3;
   }
   content.finding = "The shear strength is " + peaks + " at " + listed(labels_of(cases)) + ".";
@@ -110,8 +165,7 @@ FigureContent direct_shear_envelope(const StudyResult& study) {
     const analysis::Estimate angle = angle_of(found.fit->slope);
     table.rows.push_back(
         {label, estimate_text(found.fit->intercept, 3, true), estimate_text(angle, 3, true), std::to_string(n)});
-    said.push_back(
-        fmt::format("{}, c {} MPa and φ {}°", label, number(found.fit->intercept.value, 3), number(angle.value, 3)));
+    said.push_back(fmt::format("{}, c {} and φ {}", label, told(found.fit->intercept, 3, "MPa"), told(angle, 3, "°")));
   };
   add(quantity::shear_strength, "peak", 0);
   add(quantity::residual_shear, "residual", 1);
@@ -125,7 +179,15 @@ FigureContent direct_shear_envelope(const StudyResult& study) {
                             .alt = "",
                             .content = table,
                             .per_row = 1});
-  content.finding = "Mohr-Coulomb lines through the strengths: " + joined(said, "; ") + ".";
+  content.panels.push_back(
+      {.id = "strengths",
+       .caption =
+           "Strengths and where they were read. The residual is the mean over the last fifth of each test, which "
+           "ends at a multiple of the displacement of its peak.",
+       .alt = "",
+       .content = strengths_table(cases),
+       .per_row = 1});
+  content.finding = "Mohr-Coulomb lines through the strengths: " + joined(said, "; ") + "." + residual_words(cases);
   return content;
 }
 
