@@ -289,12 +289,12 @@ FigureContent confinement_curves(const StudyResult& study) {
   const bool followed = mark_end_of_loading(whole, cases) && study.scenario;
   content.panels.push_back(
       {.id = "stress",
-       .caption = followed
-                      ? fmt::format("Axial stress against axial strain, from the isotropic state to {:g} times the "
-                                    "strain of the peak. Crosses: {}; cracks, fragments, emission and energies are "
-                                    "given at it.",
-                                    study.scenario->real("compression.follow"), end_of_loading_words(*study.scenario))
-                      : "Axial stress against axial strain, from the isotropic state to the end of loading.",
+       .caption =
+           followed ? fmt::format("Axial stress against axial strain, from the isotropic state to {:g} times the "
+                                  "strain of the peak. Crosses: {}; cracks, fragments, emission and energies are those "
+                                  "of that moment.",
+                                  study.scenario->real("compression.follow"), end_of_loading_words(*study.scenario))
+                    : "Axial stress against axial strain, from the isotropic state to the end of loading.",
        .alt = "Stress-strain curves; peaks of " + peaks + ".",
        .content = whole});
   render::Chart start = against_strain(cases, {"axial_stress", "Axial stress σ₁ (MPa)", 1e-6}, small_strain(cases));

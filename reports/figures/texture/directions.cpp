@@ -38,9 +38,9 @@ std::string plane_words(const analysis::Maximum& m) {
 
 Net net_of(const Found& found) {
   Net net{.label = found.label, .words = {}, .poles = found.poles, .maximum = found.maximum};
-  net.words.push_back(
-      count(static_cast<double>(found.poles.weight.size())) + " poles" +
-      (found.maximum ? fmt::format(", maximum {} × uniform", number(found.maximum->times_uniform, 2)) : ""));
+  net.words.push_back(count(static_cast<double>(found.poles.weight.size())) + " poles");
+  net.words.push_back(found.maximum ? fmt::format("maximum {} × uniform", number(found.maximum->times_uniform, 2))
+                                    : "");
   net.words.push_back(found.maximum ? fmt::format("dip {}° to {}°", number(found.maximum->dip(), 2),
                                                   count(std::round(found.maximum->dip_direction())))
                                     : "");

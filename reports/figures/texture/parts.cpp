@@ -257,9 +257,9 @@ std::vector<render::Polyline> crack_traces(const dem::Record& record, std::size_
                         render::Line::solid,
                         true});
     };
-    // Black on a dark mineral, as biotite is, needs a light edge.
+    // Black on a dark mineral, as biotite is, needs an edge: a grey that stands out from it and from white.
     const render::Colour& colour = crack_classes()[k].colour;
-    if (std::max({colour.red, colour.green, colour.blue}) < 0.1) trace({1, 1, 1}, width + 1.4);
+    if (std::max({colour.red, colour.green, colour.blue}) < 0.1) trace({0.56, 0.56, 0.56}, width + 1.6);
     trace(colour, width);
   }
   return traces;
