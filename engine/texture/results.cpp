@@ -464,7 +464,7 @@ void add_test(Record& record, const Specimen& specimen, const Settings& settings
     record.checks.push_back(
         {"servo", servo, servo_limit, servo <= servo_limit,
          "Largest departure of the confining pressure from its set value, over that value, over all samples to the end "
-         "of the test. Limit: a third of the 3 % by which another seed moves the strength."});
+         "of loading. Limit: a third of the 3 % by which another seed moves the strength."});
   }
 
   add_specimen_tables(record, specimen, settings);

@@ -25,7 +25,8 @@ std::string with_unit(const std::string& amount, const std::string& unit) {
 std::string amount_of(const Comparison& row) {
   if (const auto* text = std::get_if<std::string>(&row.published)) return *text;
   if (const auto* range = std::get_if<std::pair<double, double>>(&row.published)) {
-    return with_unit(shortest(range->first) + " to " + shortest(range->second), row.unit);
+    const std::string low = range->first == 0 ? "at most " : shortest(range->first) + " to ";
+    return with_unit(low + shortest(range->second), row.unit);
   }
   return with_unit(shortest(std::get<double>(row.published)), row.unit);
 }

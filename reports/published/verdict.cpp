@@ -114,9 +114,8 @@ std::string tally_text(const Tally& counts, std::string_view scale) {
   }
   std::vector<std::string> apart;
   if (counts.stated > 0) {
-    apart.push_back(
-        fmt::format("{} published in words, for which the limits are ours{}", counts.stated,
-                    counts.stated_missed > 0 ? fmt::format(" ({} missed)", counts.stated_missed) : std::string()));
+    apart.push_back(fmt::format("{} published in words (the limits are ours{})", counts.stated,
+                                counts.stated_missed > 0 ? fmt::format("; {} missed", counts.stated_missed) : ""));
   }
   if (counts.derived > 0) apart.push_back(fmt::format("{} derived from published numbers", counts.derived));
   if (counts.fitted > 0) apart.push_back(fmt::format("{} that a choice was fitted to", counts.fitted));

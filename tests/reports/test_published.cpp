@@ -178,7 +178,7 @@ TEST_CASE("only published numbers count as met or missed") {
   CHECK(reports::tally_text(counts, "paper") ==
         "Of 5 published numbers and trends, 1 is met, 1 missed, 1 undecided, 1 not judged (published at paper scale) "
         "and 1 not "
-        "computed. Counted separately: 5 published in words, for which the limits are ours (1 missed), 5 derived from "
+        "computed. Counted separately: 5 published in words (the limits are ours; 1 missed), 5 derived from "
         "published "
         "numbers, 5 that a choice was fitted to and 5 that compare theory with theory.");
   CHECK(reports::tally_text({.met = 0, .missed = 0, .undecided = 0, .not_judged = 3}, "paper") ==

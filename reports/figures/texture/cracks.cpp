@@ -182,7 +182,8 @@ TextTable cracks_by_minerals(const dem::Record& record) {
 }
 
 constexpr const char* density_caption =
-    "Crack area per volume on the longitudinal section, smoothed over one grain diameter; one scale for all.";
+    "Crack density, as area per volume (mm²/mm³), on the longitudinal section, smoothed over one grain diameter; one "
+    "scale for all.";
 
 std::string density_alt(const std::string& what, const CrackDensity& density) {
   double mean = 0;

@@ -409,7 +409,7 @@ Picture density_picture(const dem::Record& record, const CrackDensity& density, 
   scene.cuts.push_back({{0, 0, 0}, {0, 1, 0}});
   scene.camera.frame = frame_of(size);
   scene.axes = true;
-  scene.bar = render::ColourBar{.title = "cracks (mm²/mm³)", .low = 0, .high = high, .colours = {}};
+  scene.bar = render::ColourBar{.title = "mm²/mm³", .low = 0, .high = high, .colours = {}};
   for (int k = 0; k < 64; ++k) scene.bar->colours.push_back(density_colour((k + 0.5) / 64));
   scene.width = width;
   scene.height = static_cast<int>(std::lround(width * std::max(0.5, size.height / size.diameter)));

@@ -114,7 +114,7 @@ FigureContent open_readings(const StudyResult& study) {
   const std::vector<Compared> compared = {
       {"E (GPa)", &quantity::young_modulus, false, "young_modulus", 1},
       {"ν", &quantity::poisson_ratio, false, "poisson_ratio", 3},
-      {"UCS (MPa)", &quantity::compressive_strength, false, "ucs_ar_1", 1},
+      {"UCS (MPa)", &quantity::compressive_strength, false, "ucs_ar_1", 0},
       {"TS (MPa)", &quantity::tensile_strength, true, "tensile_strength_ar_1", 1},
       {"σcd (MPa)", &quantity::crack_damage, false, "crack_damage", 0},
       {"strain there (%)", &quantity::crack_damage_strain, false, "crack_damage_strain", 3},
@@ -171,7 +171,7 @@ FigureContent open_readings(const StudyResult& study) {
   if (!least_and_most.empty()) {
     const auto [low, high] = std::ranges::minmax(least_and_most);
     content.finding = fmt::format("Over all readings and seeds UCS lies between {} and {} MPa; published is {} MPa.",
-                                  fixed(low, 1), fixed(high, 1), published("ucs_ar_1"));
+                                  fixed(low, 0), fixed(high, 0), published("ucs_ar_1"));
   }
   return content;
 }
