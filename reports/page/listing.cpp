@@ -70,7 +70,9 @@ void add_line(std::string& out, std::string_view line) {
 void add_comment(std::string& out, std::string first, std::string_view comment, std::size_t width) {
   std::string line = std::move(first);
   bool begun = false;  // the line has a word of the comment
-  for (const std::string_view word : words_of(comment)) {
+  for (std::string_view word : words_of(comment)) {
+    if (word.find_first_not_of(' ') == std::string_view::npos) continue;  // blanks at the end of the line
+    if (begun && word.starts_with("  ")) word.remove_prefix(word.find_first_not_of(' ') - 1);
     if (begun && length(line) + length(word) > width) {
       add_line(out, line);
       line = "#";
@@ -157,12 +159,15 @@ std::string listing(std::string_view text, std::size_t width) {
     } else if (found.comment == std::string_view::npos) {
       add_code(out, line, found, width);
     } else {
-      const std::string_view code = line.substr(0, found.comment), comment = line.substr(found.comment);
-      const std::size_t used = code.find_last_not_of(' ');
+      const std::string_view before = line.substr(0, found.comment), comment = line.substr(found.comment);
+      const std::size_t used = before.find_last_not_of(' ');
+      // The blanks that set comments below each other are for longer lines.
+      const std::string code =
+          used == std::string_view::npos ? std::string(before) : std::string(before.substr(0, used + 1)) + "  ";
       if (used == std::string_view::npos || length(code) + 12 <= width) {
-        add_comment(out, std::string(code), comment, width);
+        add_comment(out, code, comment, width);
       } else {
-        add_code(out, code.substr(0, used + 1), found, width);
+        add_code(out, before.substr(0, used + 1), found, width);
         add_comment(out, "", comment, width);
       }
     }

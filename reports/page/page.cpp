@@ -204,7 +204,7 @@ PageData way(const dem::Scenario& scenario, const Again& again) {
 
 /// `printed`: on paper, in columns.
 void set_again(PageData& data, const dem::Scenario& scenario, const ReportOptions& options, bool printed) {
-  constexpr std::size_t column = 62;  // characters
+  constexpr std::size_t column = 41;  // characters
 
   PageData sources{PageData::type::list};
   for (const auto& [file, place] :

@@ -400,7 +400,7 @@ TEST_CASE("a listing that was broken into lines says the same, and none of its c
     return most;
   };
   const std::string made =
-      "# one two three four five six seven eight nine ten\n"
+      "# one two three four five six seven eight nine ten    \n"
       "title = \"one two three four five # six seven eight\"  # a comment that goes on and on and on\n"
       "list = [\"one, two\", 'three # four', \"five\",  # six seven eight nine ten eleven\n"
       "  { a = 1, b = 2 }, 3]\n"

@@ -278,6 +278,7 @@ FigureContent crack_front(const StudyResult& study) {
       chart.series.push_back(line);
     }
     chart.legend = render::Chart::Legend::bottom_right;
+    chart.height = 240;
     content.panels.push_back(
         {.id = planes,
          .caption = fmt::format(

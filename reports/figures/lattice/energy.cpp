@@ -117,6 +117,7 @@ render::Chart heats(const dem::Record& r, double from, double to, double zero,
     chart.x.high = 1.05 * std::max(last, published_end);
   }
   chart.legend = render::Chart::Legend::below;
+  chart.height = 240;
   return chart;
 }
 

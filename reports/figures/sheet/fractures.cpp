@@ -36,7 +36,7 @@ Panel map_panel(const StudyResult& study, const dem::Record& r, double strain, i
           .caption = fmt::format("{} at {}: {}.", label == "this run" ? "Fractures" : "Fractures, " + label + ",",
                                  at_strain(r, strain), crack_words(r, strain)),
           .alt = fmt::format("Map of {} broken springs over the outlines of grains.", count(sum_of(n))),
-          .content = fracture_map(r, strain, per_row == 1 ? render::page_width : render::column_width),
+          .content = fracture_map(r, strain, render::page_width / per_row),
           .per_row = per_row,
           .whole_width = per_row == 1};
 }
@@ -192,13 +192,15 @@ FigureContent fracture_maps(const StudyResult& study) {
       : test == "growth" ? "Fractures open radially around grains that increase in volume and link neighbouring grains."
       : test == "extension" ? "The stiff layer breaks by tension fractures through its whole thickness."
                             : "Springs break only in tension, so that fractures open parallel to the compression.";
-  for (const double strain : strains_of(*r))
-    content.panels.push_back(map_panel(study, *r, strain, layered(*r) ? 1 : 2));
+  std::vector<std::pair<const dem::Record*, double>> maps;
+  for (const double strain : strains_of(*r)) maps.emplace_back(r, strain);
   for (const dem::Record* other : records_of(study)) {  // how the others end; the historical sweep has its own figure
     const std::vector<double> strains = strains_of(*other);
     if (other == r || other->text("solver") != "converged" || strains.empty()) continue;
-    content.panels.push_back(map_panel(study, *other, strains.back(), layered(*other) ? 1 : 2));
+    maps.emplace_back(other, strains.back());
   }
+  const int per_row = layered(*r) ? 1 : maps.size() % 3 == 0 ? 3 : 2;
+  for (const auto& [record, strain] : maps) content.panels.push_back(map_panel(study, *record, strain, per_row));
   if (test == "pure_shear") {
     const bool any = std::ranges::any_of(records_of(study), [](const dem::Record* one) {
       return one->text("solver") == "converged" && one->has(quantity::onset_strain);
