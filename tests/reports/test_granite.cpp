@@ -1,12 +1,14 @@
 // Figures of the granite under confining pressure, by dip and of its minerals, from made-up records: what they say of known
 // numbers, and that missing cases leave them standing.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
+#include "engine/analysis/ending.h"
 #include "engine/analysis/orientation.h"
 #include "render/chart/layout.h"
 #include "reports/figures/table.h"
@@ -122,6 +124,8 @@ TEST_CASE("figures under confinement say what the records hold") {
   const auto envelopes = reports::texture::confinement_envelopes(made.study());
   CHECK(envelopes.panels.size() == 2);
   CHECK(has(envelopes.finding, "m 29"));
+  CHECK(has(envelopes.finding, "95 % interval"));
+  CHECK(has(reports::texture::confinement_crack_maps(made.study()).finding, "mean angle to the axis is"));
   CHECK(has(envelopes.finding, "inside the range of Eq. 12"));
   const auto after = reports::texture::confinement_after_peak(made.study());
   CHECK(has(after.finding, "0.20, 0.30 and 0.60"));
@@ -136,6 +140,34 @@ TEST_CASE("figures under confinement say what the records hold") {
   CHECK(slopes.head[1] == "Slope per MPa of confining pressure");
   CHECK(slopes.rows.size() == 4);
   CHECK(has(counts.finding, "With the confining pressure, "));
+}
+
+TEST_CASE("a test that is followed further gives its energies where its cracks end, and marks that place") {
+  Made made("ldb_confinement");
+  for (const double pressure : {0.0, 10.0}) made.add_confined(pressure);
+  const auto marked = [&] {
+    std::size_t marks = 0;
+    for (const reports::Panel& panel : reports::texture::energy_compression(made.study()).panels) {
+      const auto* chart = std::get_if<render::Chart>(&panel.content);
+      if (chart)
+        marks += static_cast<std::size_t>(std::ranges::count(chart->marks, "end of loading", &render::Mark::label));
+    }
+    return marks;
+  };
+  const std::size_t before = marked();
+  dem::Record& followed = made.records.back();
+  const dem::Table& history = followed.table("history");
+  const std::size_t row = history.rows() - 5;
+  for (dem::Table& table : followed.tables) {
+    if (!table.name.starts_with("snapshots/") || table.attribute("moment") != "end") continue;
+    for (auto& [key, value] : table.attributes) {
+      if (key == "strain") value = fmt::format("{:.6g}", history.real("axial_strain")[row]);
+      if (key == "stress") value = fmt::format("{:.6g}", history.real("axial_stress")[row]);
+    }
+  }
+  CHECK(dem::analysis::end_of_loading(followed) == row);
+  CHECK(marked() == before + 1);
+  CHECK(has(reports::texture::energy_compression(made.study()).finding, "shares of the work at the end of loading: "));
 }
 
 TEST_CASE("a plateau that the start of the platens leaves uneven is told") {

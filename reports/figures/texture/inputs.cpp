@@ -62,9 +62,9 @@ render::Scene ellipsoid_scene(double ar, double dip_direction, double dip, const
     scene.lines.push_back(
         {{from, own ? place(end) : end}, colour, own ? 2.2 : 1.4, own ? render::Line::dash : render::Line::solid});
   };
-  axis({1.25 * a, 0, 0}, {0.75, 0.05, 0.05}, true);
-  axis({0, 1.25 * b, 0}, {0.74, 0.52, 0.0}, true);
-  axis({0, 0, 1.25 * b}, {0.74, 0.52, 0.0}, true);
+  axis({a, 0, 0}, {0.75, 0.05, 0.05}, true);
+  axis({0, b, 0}, {0.74, 0.52, 0.0}, true);
+  axis({0, 0, b}, {0.74, 0.52, 0.0}, true);
   const double reach = 2.1;
   for (const render::Point& end : {render::Point{reach, 0, 0}, {0, reach, 0}, {0, 0, reach}})
     axis(end, frame_colour, false);
@@ -380,9 +380,9 @@ FigureContent texture_by_seed(const StudyResult& study) {
                               .per_row = 1});
     const double last = cases.back().value;
     content.finding = fmt::format(
-        "The share {}. From AR {} to {} it grows by a factor of {}; the surface of the ellipsoid by {}, and by {} by "
-        "Eq. 14, "
-        "an approximation. ",
+        "The share {}. From AR {} to {} it grows by a factor of {}; the surface of the ellipsoid grows by {}, and by "
+        "{} "
+        "in Eq. 14, an approximation. ",
         trend_words(cases, share, "points", swept_axis(study)), shortest(cases.front().value), shortest(last),
         number(analysis::spread(cases.back(), share).mean / base, 4),
         number(exact_surface(last) / exact_surface(cases.front().value), 4),

@@ -103,7 +103,7 @@ FigureContent displacement_jump(const StudyResult& study) {
     if (auto found = across_of(item)) all.push_back(std::move(*found));
   if (!pulled.empty()) {
     SeriesCase looks = pulled.front();
-    looks.label = "direct tension";
+    looks.label = tension_label(study, pulled.front());
     looks.id = "tension";
     if (auto found = across_of(looks)) all.push_back(std::move(*found));
   }
