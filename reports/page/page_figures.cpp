@@ -161,7 +161,7 @@ void set_table(PageData& data, const TextTable& as_declared) {
     one.set("cells", values);
     rows.push_back(one);
   }
-  data.set("short", is_short(table.rows.size()));
+  data.set("short", is_short(table.rows.size(), true));
   data.set("table_head", head);
   data.set("table_rows", rows);
 }

@@ -8,8 +8,10 @@
 
 namespace reports {
 
-/// Tables of so few rows stay whole in print.
-[[nodiscard]] inline bool is_short(std::size_t rows) { return rows <= 12; }
+/// Tables of so few rows stay whole in print; those of figures are small, and stay with them.
+[[nodiscard]] inline bool is_short(std::size_t rows, bool of_a_figure = false) {
+  return rows <= (of_a_figure ? 12 : 8);
+}
 
 [[nodiscard]] inline PageData new_list() { return PageData{PageData::type::list}; }
 

@@ -186,9 +186,7 @@ std::string none_or(const dem::Quantity& number_of, const dem::Record& r) {
   return number == 0 ? "none" : count(number);
 }
 
-std::string speed_text(double speed) {
-  return std::isfinite(speed) ? number(speed, 4) + " m/s" : "no speed (it advances in fewer than three steps)";
-}
+std::string speed_text(double speed) { return number(speed, 4) + " m/s"; }
 
 }  // namespace
 
@@ -198,7 +196,7 @@ FigureContent crack_maps(const StudyResult& study) {
       "In tension the block breaks in two by opening, without slipping; in compression bonds open first, and the block "
       "fails in sliding mode.";
   content.rows = {"opening_before_sliding", "frictional_heat"};
-  std::vector<std::string> said;
+  std::vector<std::string> said, opened, slid;
   const dem::Record* pressed = main_record(study, "compression");
   if (pressed && !has_failure(*pressed)) {
     said.push_back(no_failure_words(*pressed));
@@ -226,8 +224,12 @@ FigureContent crack_maps(const StudyResult& study) {
     content.panels.push_back(by_time(*r, "tension_side_" + planes, d1, d2, "Tension, planes: " + planes, along_y, "D₁",
                                      "Bonds that opened, seen along y."));
     content.panels.push_back(halves(*r, "tension_halves_" + planes, "Tension, planes: " + planes));
-    said.push_back(fmt::format("in tension with {} planes {} bonds opened and {} slid", planes,
-                               count(r->value(quantity::cracks_opening)), none_or(quantity::cracks_sliding, *r)));
+    opened.push_back(count(r->value(quantity::cracks_opening)) + " (" + planes + " planes)");
+    slid.push_back(none_or(quantity::cracks_sliding, *r));
+  }
+  if (!opened.empty()) {
+    const bool none = std::ranges::all_of(slid, [](const std::string& number) { return number == "none"; });
+    said.push_back("in tension " + listed(opened) + " opened and " + (none ? "none" : listed(slid)) + " slid");
   }
   if (!said.empty()) {
     content.finding = sentence(said);
@@ -250,7 +252,7 @@ FigureContent crack_front(const StudyResult& study) {
   content.statement =
       "Breaking heat rises for 2.83 × 10⁻⁶ s in a block 1.2 cm wide: the opening crack runs at about 4240 m/s.";
   content.rows = {"crack_duration", "crack_speed"};
-  std::vector<std::string> said;
+  std::vector<std::string> said, fronts, few, widths;
   for (const dem::Record* r : records_of(study, "tension")) {
     if (!has_failure(*r)) {
       said.push_back(no_failure_words(*r));
@@ -283,11 +285,20 @@ FigureContent crack_front(const StudyResult& study) {
         {.id = planes,
          .caption = fmt::format(
              "Planes: {}. Distance across the load between each opened bond and the nearest of the first.", planes),
-         .alt = fmt::format("The farthest opening runs at {}.", speed_text(f.speed)),
+         .alt = fmt::format("The farthest opening runs at {}.",
+                            std::isfinite(f.speed) ? speed_text(f.speed) : "no one speed"),
          .content = chart});
-    said.push_back(fmt::format("{} planes: {} by the crack front, {} m/s by the width over the time from D₁ to D₂",
-                               planes, speed_text(f.speed), number(r->value_or_nan(quantity::crack_speed), 4)));
+    if (std::isfinite(f.speed)) {
+      fronts.push_back(speed_text(f.speed) + " (" + planes + " planes)");
+    } else {
+      few.push_back(planes + " planes");
+    }
+    widths.push_back(number(r->value_or_nan(quantity::crack_speed), 4) + " m/s (" + planes + " planes)");
   }
+  if (!fronts.empty()) said.push_back("the crack front runs at " + listed(fronts));
+  if (!few.empty())
+    said.push_back("with " + listed(few) + " it advances in fewer than three steps, which give no speed");
+  if (!widths.empty()) said.push_back("the width over the time from D₁ to D₂ is " + listed(widths));
   if (said.empty()) return content;
   content.finding = sentence(said);
   content.finding += fmt::format(

@@ -202,13 +202,16 @@ FigureContent stress_strain(const StudyResult& study) {
                                                number(r->value_or_nan(quantity::first_opening), 3),
                                                number(r->value_or_nan(quantity::a1_stress), 3)),
                             .content = opening_chart(*r, curve)});
-  content.finding = fmt::format(
-      "The first bonds open at {} MPa, at the boundary. Most open at A₁, at {} MPa, and the stress drops to {} MPa. "
-      "The "
-      "first bonds slide at {} MPa; the strength A₂ is {} MPa, at a strain of {} %.",
-      number(r->value_or_nan(quantity::first_opening), 3), number(r->value_or_nan(quantity::a1_stress), 3),
-      number(r->value_or_nan(quantity::a1_stress_after), 3), number(r->value_or_nan(quantity::first_sliding), 3),
-      number(r->value_or_nan(quantity::compressive_strength), 3), number(100 * r->value(quantity::peak_strain), 3));
+  const double first = r->value_or_nan(quantity::first_opening), a1 = r->value_or_nan(quantity::a1_stress);
+  content.finding =
+      fmt::format("The first bonds open at {} MPa, at the boundary{} the stress drops to {} MPa. ", number(first, 3),
+                  first < a1 ? fmt::format(". Most open at A₁, at {} MPa, and", number(a1, 3))
+                             : ": this is A₁, where most open and",
+                  number(r->value_or_nan(quantity::a1_stress_after), 3));
+  content.finding += fmt::format("The first bonds slide at {} MPa; the strength A₂ is {} MPa, at a strain of {} %.",
+                                 number(r->value_or_nan(quantity::first_sliding), 3),
+                                 number(r->value_or_nan(quantity::compressive_strength), 3),
+                                 number(100 * r->value(quantity::peak_strain), 3));
   return content;
 }
 
@@ -360,7 +363,7 @@ FigureContent heat_tension(const StudyResult& study) {
       "Breaking heat rises from D₁ to D₂, 2.83 × 10⁻⁶ s later; viscous heat still rises after D₂, and its share of the "
       "heat is greater than in compression. Frictional heat is always zero.";
   content.rows = {"crack_duration", "viscous_heat_after", "frictional_heat"};
-  std::vector<std::string> said;
+  std::vector<std::string> said, durations, later, friction, without;
   for (const dem::Record* r : records_of(study, "tension")) {
     if (!has_failure(*r)) {
       said.push_back(no_failure_words(*r));
@@ -374,19 +377,30 @@ FigureContent heat_tension(const StudyResult& study) {
                               .alt = fmt::format("Breaking heat rises for {} µs.", number(1e6 * (m.d2 - m.d1), 3)),
                               .content = heats(*r, m.d1 - 0.3 * span, m.d2 + 2.5 * span, m.d1,
                                                {{m.d1, "D₁"}, {m.d2, "D₂"}}, study.published_value("crack_duration"))});
-    std::string friction = r->has(quantity::friction_after_last_opening)
-                               ? fmt::format(
-                                     "frictional heat begins {} µs {} the last opening and reaches {} % of the work, "
-                                     "because cracks close again",
-                                     number(1e6 * std::abs(r->value_or_nan(quantity::friction_after_last_opening)), 3),
-                                     r->value_or_nan(quantity::friction_after_last_opening) < 0 ? "before" : "after",
-                                     number(100 * r->value(quantity::frictional_share), 2))
-                               : std::string("no frictional heat at any time");
-    said.push_back(fmt::format("{} planes: D₁ to D₂ takes {} µs, {} % of the viscous heat comes later; {}", planes,
-                               number(1e6 * (m.d2 - m.d1), 3),
-                               number(100 * r->value_or_nan(quantity::viscous_share_after_parting), 3), friction));
+    const std::string where = " (" + planes + " planes)";
+    durations.push_back(number(1e6 * (m.d2 - m.d1), 3) + " µs" + where);
+    later.push_back(number(100 * r->value_or_nan(quantity::viscous_share_after_parting), 3) + " %" + where);
+    if (r->has(quantity::friction_after_last_opening)) {
+      const double after = r->value(quantity::friction_after_last_opening);
+      friction.push_back(fmt::format("{} % of the work, from {} µs {} the last opening{}",
+                                     number(100 * r->value(quantity::frictional_share), 2),
+                                     number(1e6 * std::abs(after), 3), after < 0 ? "before" : "after", where));
+    } else {
+      without.push_back(planes + " planes");
+    }
   }
-  if (!said.empty()) content.finding = sentence(said);
+  if (!durations.empty()) {
+    said.push_back("D₁ to D₂ takes " + listed(durations) + "; " + listed(later) + " of the viscous heat comes later");
+    if (friction.empty()) {
+      said.push_back("there is no frictional heat at any time");
+    } else {
+      said.push_back("frictional heat, as cracks close again, reaches " + listed(friction) +
+                     (without.empty() ? "" : "; there is none with " + listed(without)));
+    }
+  }
+  std::vector<std::string> sentences;
+  for (const std::string& one : said) sentences.push_back(sentence({one}));
+  content.finding = joined(sentences, " ");
   return content;
 }
 
