@@ -13,6 +13,7 @@
 #include "engine/core/files.h"
 #include "engine/texture/quantities.h"
 #include "reports/figures/parts.h"
+#include "reports/figures/sheet/parts.h"
 #include "reports/output/csv.h"
 #include "reports/output/drawing.h"
 #include "reports/output/pdf.h"
@@ -419,4 +420,40 @@ TEST_CASE("a listing that was broken into lines says the same, and none of its c
       CHECK(longest(shown) <= width + 20);  // words that nothing breaks
     }
   }
+}
+
+TEST_CASE("broken springs of a sheet with a layer are told apart by the grains of their particles") {
+  // Four rows of three: matrix, layer, layer, matrix.
+  const double r = 1.0 / 6, row = std::sqrt(3.0) * r;
+  std::vector<double> place;
+  std::vector<std::int32_t> grain;
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 3; ++x) {
+      place.insert(place.end(), {r + 2 * r * x + (y % 2 == 1 ? r : 0), r + row * y});
+      grain.push_back(y == 0 ? 0 : y < 3 ? 1 : 2);
+    }
+  }
+  dem::Record record;
+  dem::Table particles{"particles", {{"columns", "3"}, {"rows", "4"}, {"radius", std::to_string(r)}}, {}};
+  particles.add("position", "1", place, 2);
+  particles.add("grain", "", grain);
+  dem::Table grains{"grains", {}, {}};
+  grains.add("growth", "1", std::vector<double>(3, 0.0));
+  grains.add("stiffness", "1", std::vector<double>{0.01, 1, 0.012});
+  dem::Table cracks{"cracks", {}, {}};
+  std::vector<double> middle;
+  for (const auto& [i, j] : {std::pair{3, 4}, {4, 6}, {7, 8}, {0, 3}, {7, 10}, {9, 10}})
+    for (std::size_t k = 0; k < 2; ++k)
+      middle.push_back(0.5 * (place[2 * static_cast<std::size_t>(i) + k] + place[2 * static_cast<std::size_t>(j) + k]));
+  cracks.add("position", "1", middle, 2);
+  cracks.add("place", "", std::vector<std::int32_t>{0, 0, 0, 1, 1, 0});
+  cracks.add("strain", "1", std::vector<double>{1, 1, 2, 1, 2, 2});
+  dem::Table history{"history", {}, {}};
+  history.add("crossing_fractures", "1", std::vector<double>{0});
+  record.tables = {particles, grains, cracks, history};
+  using enum reports::sheet::CrackPlace;
+  CHECK(reports::sheet::places_of(record) == std::vector{inside, inside, inside, edge, edge, matrix});
+  CHECK(reports::sheet::crack_counts(record, 1) == std::array<int, 4>{2, 0, 1, 0});
+  CHECK(reports::sheet::crack_counts(record, 2) == std::array<int, 4>{3, 0, 2, 1});
+  CHECK(reports::sheet::between_by_chance(record) == doctest::Approx(10.0 / 23));
 }

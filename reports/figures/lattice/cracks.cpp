@@ -298,7 +298,7 @@ FigureContent crack_front(const StudyResult& study) {
   if (!fronts.empty()) said.push_back("the crack front runs at " + listed(fronts));
   if (!few.empty())
     said.push_back("with " + listed(few) + " it advances in fewer than three steps, which give no speed");
-  if (!widths.empty()) said.push_back("the width over the time from D₁ to D₂ is " + listed(widths));
+  if (!widths.empty()) said.push_back("the width of the block over the time from D₁ to D₂ gives " + listed(widths));
   if (said.empty()) return content;
   content.finding = sentence(said);
   content.finding += fmt::format(
