@@ -43,7 +43,7 @@ render::Scene scene_of(const dem::Record& r, const render::Point& direction) {
   scene.camera.direction = direction;
   scene.axes = true;
   scene.width = 620;
-  scene.height = 620;
+  scene.height = 470;
   return scene;
 }
 
@@ -131,7 +131,7 @@ Panel halves(const dem::Record& r, const std::string& id, const std::string& lab
   p.scene.camera.direction = {-0.92, 0.30, -0.12};
   p.scene.axes = true;
   p.scene.width = 620;
-  p.scene.height = 620;
+  p.scene.height = 470;
   p.label = label;
   p.legend = {{moved_down, "moved down"}, {moved_up, "moved up"}};
   return {.id = id,

@@ -1,5 +1,7 @@
 // What holds together after failure, and the emission of the blocks: bonds that break as events.
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "reports/figures/emission.h"
 #include "reports/figures/fragments.h"
@@ -30,22 +32,38 @@ std::vector<SeriesCase> failed(const StudyResult& study) {
   return cases;
 }
 
-// Single particles all around a crushed block hide its larger parts: those of the last entry of the key are left out.
-void without_single(Picture& picture, const analysis::Fragments& parts) {
+// Small parts all around a crushed block hide its larger ones: single particles, the last entry of the key, are left out, and
+// so is what stands before one of the four largest parts, the first entries. The eye looks against y.
+void without_what_hides(Picture& picture, const analysis::Fragments& parts) {
   if (parts.single() * 4 < parts.of.size()) return;
-  const render::Colour single = picture.legend.back().colour;
-  render::Spheres kept = picture.scene.spheres.front();
-  kept.centre.clear(), kept.radius.clear(), kept.colour.clear();
-  const render::Spheres& all = picture.scene.spheres.front();
+  constexpr std::size_t largest = 4;
+  const auto same = [](const render::Colour& a, const render::Colour& b) {
+    return a.red == b.red && a.green == b.green && a.blue == b.blue;
+  };
+  const render::Spheres all = picture.scene.spheres.front();
+  std::vector<std::size_t> large;
+  std::vector<bool> is_large(all.centre.size(), false);
   for (std::size_t i = 0; i < all.centre.size(); ++i) {
-    const render::Colour& c = all.colour[i];
-    if (c.red == single.red && c.green == single.green && c.blue == single.blue) continue;
+    for (std::size_t rank = 0; rank < std::min(largest, picture.legend.size()); ++rank)
+      is_large[i] = is_large[i] || same(all.colour[i], picture.legend[rank].colour);
+    if (is_large[i]) large.push_back(i);
+  }
+  const auto hides = [&](std::size_t i) {
+    return std::ranges::any_of(large, [&](std::size_t k) {
+      return all.centre[i][1] > all.centre[k][1] &&
+             std::hypot(all.centre[i][0] - all.centre[k][0], all.centre[i][2] - all.centre[k][2]) <
+                 all.radius[i] + all.radius[k];
+    });
+  };
+  render::Spheres& kept = picture.scene.spheres.front();
+  kept.centre.clear(), kept.radius.clear(), kept.colour.clear();
+  for (std::size_t i = 0; i < all.centre.size(); ++i) {
+    if (same(all.colour[i], picture.legend.back().colour) || (!is_large[i] && hides(i))) continue;
     kept.centre.push_back(all.centre[i]);
     kept.radius.push_back(all.radius[i]);
-    kept.colour.push_back(c);
+    kept.colour.push_back(all.colour[i]);
   }
-  picture.scene.spheres.front() = std::move(kept);
-  picture.label += ", without its single particles";
+  picture.label += ", without single particles and what hides the four largest parts";
 }
 
 render::Outline box_of(const dem::Record& record) {
@@ -73,7 +91,7 @@ FigureContent fragments(const StudyResult& study) {
   for (const Broken& broken : cases) {
     const render::Outline box = box_of(*broken.record);
     Picture picture = fragments_picture(broken, apart, {box.low, box.high}, 480);
-    without_single(picture, broken.parts);
+    without_what_hides(picture, broken.parts);
     content.panels.push_back({.id = "apart_" + broken.id,
                               .caption =
                                   "Parts that hold together at the end, each moved outwards by 0.3 of its distance "
