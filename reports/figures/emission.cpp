@@ -253,7 +253,7 @@ std::optional<analysis::GutenbergRichter> law_of(const Emission& e, double from 
 TextTable table_of(const std::vector<Emission>& all) {
   TextTable table{
       {"Case", "Cracks", "Events", "Cracks of the largest event", "Energy of all events (mJ)",
-       "Energy of all events over heat of breaking in the ledger", "Window in space (mm)", "Window in time (µs)",
+       "Energy of all events over that of broken bonds in the ledger", "Window in space (mm)", "Window in time (µs)",
        "Largest magnitude", "Fitted from M", "Events from there on", "b ± standard error"},
       {}};
   for (const Emission& e : all) {
@@ -347,7 +347,7 @@ void add_emission(FigureContent& content, std::vector<Emission> all) {
   if (all.empty()) return;
   fit_alike(all);
   const Emission& base = all.front();
-  const std::string aside = base.strain == "platen_strain" ? ", which is larger than the gauge’s" : "";
+  const std::string aside = base.strain == "platen_strain" ? " (of the gauge in other figures)" : "";
   content.panels.push_back(
       {.id = "activity",
        .caption = "Cracks and events against the strain of the ends" + aside + ": " + base.looks.label + ".",
@@ -362,7 +362,7 @@ void add_emission(FigureContent& content, std::vector<Emission> all) {
   content.panels.push_back({.id = "magnitudes",
                             .caption = "Events by magnitude, M = 2/3 (log₁₀ E − 4.8) with all released energy E in J; "
                                        "lines by maximum likelihood, from the magnitude on from which the catalogue is "
-                                       "complete and follows a straight line.",
+                                       "complete and a straight line is not ruled out.",
                             .alt = laws_words(all),
                             .content = magnitude_chart(all),
                             .per_row = 2});
@@ -385,25 +385,25 @@ void add_emission(FigureContent& content, std::vector<Emission> all) {
     content.panels.push_back(
         {.id = "map_" + e.looks.id,
          .caption = fmt::format("Events as spheres whose volume is their energy, on one scale for all; the largest has "
-                                "{} {}. None is drawn smaller than half a particle.",
+                                "{} {}. None is drawn smaller than half a particle’s diameter.",
                                 number(factor * largest, 3), unit),
          .alt = fmt::format("{} events at {}.", e.events.size(), e.looks.label),
          .content = map_of(e, largest),
          .per_row = per_row});
-  content.panels.push_back({.id = "table",
-                            .caption =
-                                "Events up to the last crack of the test, their energy over the heat of breaking in "
-                                "the ledger at that time, and the law of their magnitudes, where 30 events or "
-                                "more follow a straight line.",
-                            .alt = "",
-                            .content = table_of(all),
-                            .per_row = 1});
+  content.panels.push_back(
+      {.id = "table",
+       .caption = "Events up to the end of loading, their energy over that of bonds broken in tension and shear in "
+                  "the ledger at that time, and the law of their magnitudes, where 30 events or "
+                  "more follow a straight line.",
+       .alt = "",
+       .content = table_of(all),
+       .per_row = 1});
   content.finding = laws_words(all);
   double off = 0;
   for (const Emission& e : all) off = std::max(off, std::abs(e.energy() / e.heat - 1));
   if (std::ranges::all_of(all, [](const Emission& e) { return e.hits.own_energies; })) {
     constexpr double rounding = 1e-6;
-    content.finding += " The energies of all events add up to the heat of breaking in the ledger";
+    content.finding += " The energies of all events add up to the energy of broken bonds in the ledger";
     content.finding += off < rounding ? "." : fmt::format(" within {} %.", number(100 * off, 2));
   } else {
     content.finding +=

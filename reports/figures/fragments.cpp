@@ -108,7 +108,8 @@ Picture fragments_picture(const Broken& broken, double apart, const std::array<r
     shares[rank[k]] += broken.parts.share(k);
   }
   for (std::size_t r = 0; r < ranks.size(); ++r) {
-    const std::string share = r < 4 ? percent(shares[r], 1) : count(static_cast<double>(numbers[r]));
+    const std::string share =
+        r < 4 ? (shares[r] < 0.0005 ? "< 0.1 %" : percent(shares[r], 1)) : count(static_cast<double>(numbers[r]));
     picture.legend.push_back({ranks[r].colour, std::string(ranks[r].name), numbers[r] > 0 ? share : "none"});
   }
   return picture;
@@ -191,14 +192,14 @@ TextTable fragments_table(const std::vector<Broken>& cases) {
   for (const Broken& broken : cases) {
     const std::size_t main = broken.parts.of_at_least(large), single = broken.parts.single();
     const auto law = size_law(broken);
-    const auto share = [&](std::size_t k) {  // single particles are counted apart, as in the pictures
-      const bool is_part = k < broken.parts.all.size() && broken.parts.all[k].particles > 1;
-      return is_part ? number(100 * broken.parts.share(k), 3) : std::string("–");
-    };
+    std::vector<double> shares;  // single particles are counted apart, as in the pictures
+    for (std::size_t k = 0; k < broken.parts.all.size(); ++k)
+      if (broken.parts.all[k].particles > 1) shares.push_back(broken.parts.share(k));
+    const auto share = [&](std::size_t k) { return k < shares.size() ? number(100 * shares[k], 3) : std::string("–"); };
     table.rows.push_back({broken.label, std::to_string(main), share(0), share(1), share(2),
                           count(static_cast<double>(broken.parts.all.size() - single - main)),
                           count(static_cast<double>(single)),
-                          !law           ? "too few"
+                          !law           ? "too few parts or sizes"
                           : law->holds() ? estimate_text(law->exponent, 3, true)
                                          : "no power law, " + p_text(law->p, analysis::law_samples)});
   }

@@ -83,12 +83,18 @@ void add_trends(FigureContent& content, const std::vector<Trend>& trends, const 
     (!fit->is_clear() ? unclear : slope < 0 ? falling : rising).push_back(name);
   }
   if (table.rows.empty()) return;
-  content.panels.push_back(
-      {.id = "trends",
-       .caption = "Slopes of straight lines through the numbers of cracks against " + std::string(axis.words) + ".",
-       .alt = "",
-       .content = table,
-       .per_row = 1});
+  const bool any_known =
+      std::ranges::any_of(trends, [](const Trend& t) { return t.fit && t.fit->slope.has_interval(); });
+  if (!any_known) {  // too few seeds
+    table.head.resize(2);
+    for (auto& row : table.rows) row.resize(2);
+  }
+  content.panels.push_back({.id = "trends",
+                            .caption = "Slopes of straight lines through the numbers of cracks against " +
+                                       std::string(axis.words) + (any_known ? "." : "; too few seeds for an interval."),
+                            .alt = "",
+                            .content = table,
+                            .per_row = 1});
   std::vector<std::string> said;
   if (!rising.empty()) said.push_back(listed(rising) + " cracks become more");
   if (!falling.empty()) said.push_back(listed(falling) + " cracks become fewer");
@@ -106,7 +112,7 @@ std::string trend_words(const std::vector<SeriesCase>& cases, const ValueOf& val
   const std::string of =
       (unit.empty() || unit == "°" ? std::string(unit) : " " + std::string(unit)) + " per " + std::string(axis.step);
   if (!fit->slope.has_interval()) {
-    return fmt::format("{} by {}{} ({}: no interval)", slope < 0 ? "falls" : "rises", number(std::abs(slope), 2), of,
+    return fmt::format("shows no clear trend: slope {}{} ({}, no interval)", with_sign(number(slope, 2)), of,
                        seeds_text(fit->seeds));
   }
   const std::string interval =

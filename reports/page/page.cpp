@@ -36,7 +36,8 @@ Json asset(const std::filesystem::path& file) {
 std::string filled(const dem::Scenario& scenario, std::string text) {
   for (std::size_t at = 0; (at = text.find('{', at)) != std::string::npos;) {
     const std::size_t end = text.find('}', at);
-    text.replace(at, end - at + 1, shortest(scenario.real(text.substr(at + 1, end - at - 1))));
+    const double value = scenario.real(text.substr(at + 1, end - at - 1));
+    text.replace(at, end - at + 1, needs_powers(value) ? number(value, 3) : shortest(value));
   }
   return text;
 }
@@ -272,6 +273,7 @@ std::string page(const StudyResult& study, const Comparisons& comparisons, const
   data.set("has_notes", !notes.is_empty_list());
   data.set("notes", notes);
   data.set("choices", list_of(choices));
+  data.set("of_a_paper", study.of_a_paper);
   set_citations(data, study, options);
   set_again(data, scenario, options, images != Images::embedded);
   data.set("since", images == Images::embedded ? options.since_reference.shown : options.since_reference.printed);

@@ -128,22 +128,23 @@ std::string laboratory_source(const dem::Scenario& scenario) {
 std::string laboratory_tally(const std::vector<LaboratoryRow>& rows, const std::string& scale) {
   if (rows.empty()) return {};
   const auto counted = [&](Verdict verdict) { return std::ranges::count(rows, verdict, &LaboratoryRow::verdict); };
-  std::vector<std::string> parts;
-  const auto say = [&](Verdict verdict, const char* one, const char* many) {
-    const auto number = counted(verdict);
-    if (number == 0) return;
-    const std::string verb = !parts.empty() ? "" : number > 1 ? "are " : "is ";
-    parts.push_back(fmt::format("{} {}{}", number, verb, number > 1 ? many : one));
+  std::vector<std::string> ours, others;
+  const auto say = [&](Verdict verdict, std::string_view first, std::string_view later) {
+    if (counted(verdict) > 0) ours.push_back(fmt::format("{} {}", ours.empty() ? first : later, counted(verdict)));
   };
-  say(Verdict::met, "within its uncertainty", "within their uncertainty");
-  say(Verdict::missed, "outside", "outside");
-  say(Verdict::undecided, "undecided", "undecided");
-  say(Verdict::not_judged, "without a stated uncertainty", "without a stated uncertainty");
-  say(Verdict::not_computed, "not tested here", "not tested here");
+  say(Verdict::met, "within the uncertainty of", "within that of");
+  say(Verdict::missed, "outside the uncertainty of", "outside that of");
+  say(Verdict::undecided, "undecided for", "undecided for");
+  if (!ours.empty()) others.push_back("ours are " + listed(ours));
+  const auto count_of = [&](Verdict verdict, std::string_view one, std::string_view many) {
+    const auto number = counted(verdict);
+    if (number > 0) others.push_back(fmt::format("{} {}", number, number > 1 ? many : one));
+  };
+  count_of(Verdict::not_judged, "has no stated uncertainty", "have no stated uncertainty");
+  count_of(Verdict::not_computed, "is not tested here", "are not tested here");
   const std::string where = scale.empty() ? "Of " : "At " + scale + " scale, of ";
-  return where + (rows.size() == 1
-                      ? fmt::format("one value measured in the laboratory {}.", listed(parts))
-                      : fmt::format("{} values measured in the laboratory {}.", rows.size(), listed(parts)));
+  return where + (rows.size() == 1 ? "one value" : fmt::format("{} values", rows.size())) +
+         " measured in the laboratory " + joined(others, "; ") + ".";
 }
 
 }  // namespace reports

@@ -137,11 +137,10 @@ void compare_trend(const Terms& terms, const Json& entry, const Json& term, Comp
   const double resolution = entry.value("resolution", 0.0);
   if (change < resolution) {
     row.outcome = Verdict::undecided;
-    row.detail += fmt::format("; a change of {}, where half the loading rate makes {}", percent(change, 1),
-                              percent(resolution, 0));
+    row.detail += fmt::format("; changes by {}, less than the {} by which half the loading rate changes it",
+                              percent(change, 1), percent(resolution, 0));
   }
-  const bool unclear = slope.value.has_interval() || change < resolution || !steady;
-  row.computed = row.outcome == Verdict::undecided && unclear ? "no clear trend" : word;
+  row.computed = row.outcome == Verdict::undecided ? "no clear trend" : word;
   row.estimate = slope.value;
   row.p_value = slope.p_value;
 }

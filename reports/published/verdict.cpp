@@ -118,7 +118,7 @@ std::string tally_text(const Tally& counts, std::string_view scale) {
                                 counts.stated_missed > 0 ? fmt::format("; {} missed", counts.stated_missed) : ""));
   }
   if (counts.derived > 0) apart.push_back(fmt::format("{} derived from published numbers", counts.derived));
-  if (counts.fitted > 0) apart.push_back(fmt::format("{} that a choice was fitted to", counts.fitted));
+  if (counts.fitted > 0) apart.push_back(fmt::format("{} to which a choice was fitted", counts.fitted));
   if (counts.theory > 0) {
     apart.push_back(fmt::format("{} that compare{} theory with theory", counts.theory, counts.theory == 1 ? "s" : ""));
   }

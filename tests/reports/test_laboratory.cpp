@@ -85,7 +85,7 @@ TEST_CASE("nothing is said of a rock that nothing was measured of, and summary.j
   CHECK(reports::summary_json(none.study(), {}, {}, "0.1.0").find("laboratory") == std::string::npos);
   const Fixture some("ucs = \"210 MPa +- 20\"\nyoung_modulus = \"60 GPa +- 1\"\n");
   CHECK(reports::laboratory_tally(some.rows()) ==
-        "Of 2 values measured in the laboratory 1 is within its uncertainty and 1 outside.");
+        "Of 2 values measured in the laboratory ours are within the uncertainty of 1 and outside that of 1.");
   const auto json = nlohmann::json::parse(reports::summary_json(some.study(), {}, {}, "0.1.0"));
   CHECK(json.at("laboratory").size() == 2);
   CHECK(json.at("laboratory").at(0).at("verdict") == "outside");

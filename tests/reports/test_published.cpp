@@ -180,7 +180,7 @@ TEST_CASE("only published numbers count as met or missed") {
         "and 1 not "
         "computed. Counted separately: 5 published in words (the limits are ours; 1 missed), 5 derived from "
         "published "
-        "numbers, 5 that a choice was fitted to and 5 that compare theory with theory.");
+        "numbers, 5 to which a choice was fitted and 5 that compare theory with theory.");
   CHECK(reports::tally_text({.met = 0, .missed = 0, .undecided = 0, .not_judged = 3}, "paper") ==
         "None of the 3 published numbers and trends is judged: they belong to the scale “paper”.");
   CHECK(reports::tally_text({.met = 0, .missed = 2}, "paper") ==
@@ -221,7 +221,7 @@ TEST_CASE_FIXTURE(Fixture, "two points alone have no interval") {
   records.pop_back();
   const Comparison row = one(falls);
   CHECK(row.verdict == Verdict::undecided);
-  CHECK(std::get<std::string>(*row.computed) == "falls");
+  CHECK(std::get<std::string>(*row.computed) == "no clear trend");
   CHECK(row.detail.find("one seed: no interval") != std::string::npos);
   without_seeds(records);
   CHECK(one(falls).verdict == Verdict::met);  // nothing is left to chance

@@ -19,6 +19,10 @@ std::size_t first_after_peak(const dem::Record& record) {
 
 }  // namespace
 
+bool is_wide_enough_for_a_band(const dem::Record& record) {
+  return size_of(record).diameter >= 2 * band_diameters * mean_diameter(record);
+}
+
 std::vector<double> from_middle(const dem::Record& record, std::span<const double> points, std::size_t first) {
   const Size size = size_of(record);
   const double middle = size.z_low + 0.5 * size.height;

@@ -7,6 +7,9 @@ namespace reports::texture {
 
 constexpr double band_diameters = 5;  ///< thickness of the band in mean particle diameters
 
+/// Whether a band with a layer on each side, half as thick as it, goes across the specimen.
+bool is_wide_enough_for_a_band(const dem::Record& record);
+
 /// The densest band of the cracks after the peak, and the largest excess that cracks at random have. Places are counted from
 /// the middle of the specimen.
 struct Band {

@@ -415,7 +415,7 @@ FigureContent confinement_after_peak(const StudyResult& study) {
   chart.left.title = axis_title(quantity::residual_over_peak);
   chart.left.low = 0;
   chart.left.high = 1.1;
-  series.label = "where the test was followed to";
+  series.label = "end of the test";
   chart.series.push_back(series);
   const double reach = analysis::common_reach(points_of(cases));
   const ValueOf equal = analysis::stress_after_peak(reach);
@@ -439,8 +439,7 @@ FigureContent confinement_after_peak(const StudyResult& study) {
                : "Residual stress over the peak.",
        .alt = "Residual over peak " + ratios + "; at " + same_strain + " " + by_case(cases, equal, 2, "") + ".",
        .content = chart});
-  TextTable servo{{"Confining pressure (MPa)", "To the end of loading (%)", "To where the test was followed to (%)"},
-                  {}};
+  TextTable servo{{"Confining pressure (MPa)", "To the end of loading (%)", "To the end of the test (%)"}, {}};
   double worst = 0;
   for (const SeriesCase& item : cases) {
     const double error = analysis::spread(item, shown(quantity::servo_error)).mean;

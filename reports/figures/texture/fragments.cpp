@@ -1,6 +1,8 @@
 // What holds together after failure: parts in colours by size and pulled apart, and their sizes.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "reports/figures/fragments.h"
 #include "reports/figures/table.h"
 #include "reports/figures/texture/parts.h"
@@ -49,16 +51,20 @@ FigureContent fragments(const StudyResult& study) {
                                                 : "Exponents: " + joined(laws, "; ") + ".",
                             .content = fragments_by_number(cases),
                             .per_row = 2});
-  content.panels.push_back({.id = "volumes",
-                            .caption = "Share of the volume in parts up to a size.",
-                            .alt = joined(said, "; ") + ".",
-                            .content = fragments_by_volume(cases),
-                            .per_row = 2});
+  // Of a specimen that holds together nearly all volume has one size: there is nothing to see in a distribution.
+  constexpr double nearly_all = 0.9;
+  if (std::ranges::any_of(cases, [](const Broken& b) { return b.parts.share(0) < nearly_all; }))
+    content.panels.push_back({.id = "volumes",
+                              .caption = "Share of the volume in parts up to a size.",
+                              .alt = joined(said, "; ") + ".",
+                              .content = fragments_by_volume(cases),
+                              .per_row = 2});
   content.panels.push_back(
       {.id = "table",
-       .caption = "Parts at the end of loading. Exponent of the power law of their numbers of particles "
-                  "n, the largest part left out: from 30 parts of five sizes on, and where the law is not "
-                  "ruled out (p below 0.01: fewer than 1 % of samples of that law lie as far from it).",
+       .caption =
+           "Parts at the end of loading. Exponent of the power law of their numbers of particles n, the largest "
+           "part left out. It is fitted where there are at least 30 parts of at least five sizes, and told where "
+           "it is not ruled out: at least 1 % of samples drawn from the law lie as far from it (p).",
        .alt = "",
        .content = fragments_table(cases),
        .per_row = 1});

@@ -156,7 +156,7 @@ FigureContent genesis_steps(const StudyResult& study) {
   add("masked", "Masked by ellipsoids.",
       percent(gaps / particles) + " of the particles are in no ellipsoid and drawn in blue.",
       {.scene = scene_of(study, *record, after_round(study, *record, 0), false),
-       .label = count(gaps) + " gap particles",
+       .label = "after masking: " + count(gaps) + " particles of no grain",
        .legend = with_gaps(study, *record)});
   add("masked_section", "Masked specimen, cut along the axis.", "Gap particles, in blue, lie between the grains.",
       {.scene = scene_of(study, *record, after_round(study, *record, 0), true),
@@ -273,7 +273,7 @@ FigureContent genesis_contacts(const StudyResult& study) {
   add("laws_near", laws, law_legend, "contact laws, enlarged", by_law, true);
   const bool same = groups.numbers[names.size()] + groups.numbers[names.size() + 1] == laws.numbers[1];
   content.agreement = same ? Agreement::agrees : Agreement::disagrees;
-  content.finding = by_group + " " + (same ? "As many are parallel bonds." : by_law);
+  content.finding = by_group + " " + (same ? "All of them, and no other contact, are parallel bonds." : by_law);
   return content;
 }
 }  // namespace reports::texture

@@ -17,7 +17,7 @@ struct Reading {
 };
 constexpr std::array readings{
     Reading{quantity::initiation_by_stiffness, "Axial stiffness",
-            "Eq. 9 leaves its early plateau by the set share (measure.stiffness_departure)"},
+            "the axial stiffness is a set share (key measure.stiffness_departure) below its early plateau"},
     Reading{quantity::stress_at_strain, "Strain of 0.1 %", "the stress there"},
     Reading{quantity::initiation_by_cracks, "One percent of cracks", "as many cracks as 1 % of those at the peak"},
     Reading{quantity::initiation_by_volume, "Crack volumetric strain",

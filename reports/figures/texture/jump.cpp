@@ -86,9 +86,8 @@ std::string jump_words(const Across& across) {
   if (!across.jump) return across.looks.label + ": " + at_an_end;
   const double opening = across.jump->opening.beyond();
   return fmt::format(
-      "{}: across a band at {}° to the axis the sides have {} by {} µm and slipped by {} µm beyond "
-      "what their strain gives",
-      across.looks.label, number(across.fit.inclination, 2), opening > 0 ? "parted" : "closed up",
+      "{}: beyond the strain of its sides, the band at {}° to the axis has {} by {} µm and slipped by {} µm",
+      across.looks.label, number(across.fit.inclination, 2), opening > 0 ? "opened" : "closed",
       micro(std::abs(opening)), micro(slip_of(*across.jump)));
 }
 
@@ -110,18 +109,18 @@ FigureContent displacement_jump(const StudyResult& study) {
   if (all.empty()) return content;
   // The band and a layer beyond each of its faces, all across the specimen.
   const dem::Record& base = *all.front().looks.record;
-  const double across = size_of(base).diameter / mean_diameter(base);
-  if (across < 2 * band_diameters) {
-    content.panels.push_back(
-        note_panel("too_small", "Displacement across the band with most cracks.",
-                   fmt::format("Not read at this scale: the specimen is {} particles across, a band with a layer on "
-                               "each side takes {:g}.",
-                               number(across, 2), 2 * band_diameters)));
+  if (!is_wide_enough_for_a_band(base)) {
+    content.panels.push_back(note_panel(
+        "too_small", "Displacement across the band with most cracks.",
+        fmt::format("Not read at this scale: a band with a layer on each side takes {:g} particles, and fewer "
+                    "lie across the specimen.",
+                    2 * band_diameters)));
     return content;
   }
-  TextTable table{{"Case", "Angle of the band to the axis (°)", "Excess of cracks in the band (%)", "Strain (%)",
-                   "Opening (µm)", "Opening by strain of the sides (µm)", "Slip (µm)", "Slip, upper side up (µm)",
-                   "Slip upwards by strain of the sides (µm)"},
+  TextTable table{{"Case", "Angle of the band to the axis (°)", "Excess of cracks in the band (points)",
+                   "Strain of the gauge at that time (%)", "Sides apart (µm)", "by their strain (µm)",
+                   "rest: opening (µm)", "Upper side up along the band (µm)", "by the strain of the sides (µm)",
+                   "rest: slip up (µm)", "rest: slip sideways (µm)", "whole slip in the plane of the band (µm)"},
                   {}};
   std::vector<std::string> said, without;
   std::vector<const Across*> shown;
@@ -129,11 +128,14 @@ FigureContent displacement_jump(const StudyResult& study) {
     std::vector<std::string> row{one.looks.label, number(one.fit.inclination, 2), number(100 * one.fit.excess(), 2),
                                  number(100 * one.strain, 3)};
     const auto length = [&](auto of) { row.push_back(one.jump ? micro(of(*one.jump)) : "–"); };
-    length([](const analysis::Jump& jump) { return jump.opening.beyond(); });
+    length([](const analysis::Jump& jump) { return jump.opening.moved; });
     length([](const analysis::Jump& jump) { return jump.opening.even; });
-    length([](const analysis::Jump& jump) { return slip_of(jump); });
-    length([](const analysis::Jump& jump) { return jump.slip.beyond(); });
+    length([](const analysis::Jump& jump) { return jump.opening.beyond(); });
+    length([](const analysis::Jump& jump) { return jump.slip.moved; });
     length([](const analysis::Jump& jump) { return jump.slip.even; });
+    length([](const analysis::Jump& jump) { return jump.slip.beyond(); });
+    length([](const analysis::Jump& jump) { return jump.sideways.beyond(); });
+    length(slip_of);
     table.rows.push_back(std::move(row));
     if (one.jump) {
       said.push_back(jump_words(one));
@@ -154,10 +156,11 @@ FigureContent displacement_jump(const StudyResult& study) {
          .per_row = 2});
   content.panels.push_back(
       {.id = "table",
-       .caption = "Displacement of the layer beyond one face of the band, half as thick as the band, less that of the "
-                  "layer beyond the other face. What the strain of the two sides gives over the same distance is taken "
-                  "off and "
-                  "stands beside it. The excess is the share of the cracks in the band less its share of the volume.",
+       .caption =
+           "Displacement of the layer beyond one face of the band, half as thick as the band, less that of the "
+           "layer beyond the other face; what the strain of the two sides gives over the same distance; and the "
+           "rest. Places are those of the last state that was kept. The excess is the share of the cracks in the "
+           "band less its share of the volume.",
        .alt = "",
        .content = table,
        .per_row = 1});

@@ -73,8 +73,8 @@ render::Series envelope_in_invariants(double high, const Strength& strength, con
 render::Chart invariants_chart(const analysis::Envelopes& found, const std::optional<analysis::Coulomb>& coulomb,
                                double tension, double high) {
   render::Chart chart;
-  chart.x.title = "Mean stress p = (σ₁ + 2 σ₃)/3 (MPa)";
-  chart.left.title = "Deviator q = σ₁ − σ₃ (MPa)";
+  chart.x.title = "Mean stress p = (axial + 2 lateral)/3 (MPa)";
+  chart.left.title = "Deviator q, |axial − lateral| (MPa)";
   chart.left.low = 0;
   chart.series.push_back(in_invariants(found.peak, "peak", peak_colour, render::Marker::circle));
   if (!found.damage.sigma_3.empty())
@@ -207,13 +207,13 @@ FigureContent confinement_mohr(const StudyResult& study) {
   if (coulomb)
     fits.push_back(fmt::format("Coulomb with a friction angle of {} and a cohesion of {} MPa",
                                told(coulomb->friction_angle, 3, "°"), number(coulomb->cohesion, 3)));
-  content.panels.push_back({.id = "circles",
-                            .caption =
-                                "Peaks, means over seeds, as Mohr circles on one scale, with the envelopes that "
-                                "touch the circles of the fits. The circle to the left of zero is direct tension.",
-                            .alt = "Fits: " + listed(fits) + ".",
-                            .content = circles_chart(peaks, found, coulomb, tension),
-                            .per_row = 1});
+  content.panels.push_back(
+      {.id = "circles",
+       .caption = "Peaks as Mohr circles on one scale, with envelopes of the fits, each the line that touches all "
+                  "circles of its fit. The circle to the left of zero is direct tension.",
+       .alt = "Fits: " + listed(fits) + ".",
+       .content = circles_chart(peaks, found, coulomb, tension),
+       .per_row = 1});
   content.panels.push_back({.id = "invariants",
                             .caption = "The same strengths by mean stress and deviator, one point for each test.",
                             .alt = "Peaks: " + joined(said, "; ") + ".",

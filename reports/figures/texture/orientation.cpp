@@ -17,7 +17,6 @@ namespace {
 render::Chart angle_chart(const std::vector<SeriesCase>& cases) {
   render::Chart chart;
   chart.x.title = "Angle between crack and loading axis (°)";
-  chart.left.title = "Share of the crack area (%)";
   chart.left.low = 0;
   chart.x.low = 0;
   chart.x.high = 90;
@@ -33,6 +32,7 @@ render::Chart angle_chart(const std::vector<SeriesCase>& cases) {
     const bool first = random.x.empty();
     for (std::size_t k = 0; k < found.share.size(); ++k) {
       const double from = found.width * static_cast<double>(k), to = from + found.width;
+      chart.left.title = "Share of the crack area in " + number(found.width, 2) + "° (%)";
       series.x.push_back(0.5 * (from + to));
       series.y.push_back(100 * found.share[k]);
       if (!first) continue;
@@ -84,6 +84,8 @@ FigureContent crack_orientation(const StudyResult& study) {
                        .marker = render::Marker::square,
                        .y_error = {}};
   std::vector<std::string> said, standing;
+  const bool has_room = is_wide_enough_for_a_band(*cases.front().record);
+  if (!has_room) table.head.resize(6);
   for (const SeriesCase& item : cases) {
     const dem::Table& cracks = item.record->table("cracks");
     const analysis::Orientation all = analysis::orientation_of(cracks, 0),
@@ -93,7 +95,8 @@ FigureContent crack_orientation(const StudyResult& study) {
     table.rows.push_back({item.label, shown(all.mean, 3), shown(tension.mean, 3), shown(shear.mean, 3),
                           shown(100 * all.along, 3), shown(100 * shear.area / all.area, 2), shown(band.inclination, 2),
                           shown(band.concentration(), 2), shown(100 * band.excess(), 2), shown(100 * at_random, 2)});
-    if (band.excess() > at_random) standing.push_back(item.label);
+    if (!has_room) table.rows.back().resize(6);
+    if (has_room && band.excess() > at_random) standing.push_back(item.label);
     if (!(all.area > 0)) continue;
     angles.x.push_back(item.value);
     angles.y.push_back(all.mean);
@@ -114,31 +117,41 @@ FigureContent crack_orientation(const StudyResult& study) {
     chart.left.title = "Angle to the loading axis (°)";
     chart.left.low = 0;
     chart.left.high = 90;
-    chart.series = {angles, bands};
+    chart.series = {angles};
+    if (has_room) chart.series.push_back(bands);
     chart.legend = render::Chart::Legend::below;
     content.panels.push_back(
         {.id = "band",
-         .caption = fmt::format("Mean angle of the cracks, and angle of the band, {:g} mean particle diameters thick, "
-                                "with most cracks after the peak beyond its share of the volume.",
-                                band_diameters),
-         .alt = "Mean angle of cracks and angle of the band: " + joined(said, "; ") + ".",
+         .caption = has_room
+                        ? fmt::format("Mean angle of the cracks, and angle of the band, {:g} mean particle diameters "
+                                      "thick, with most cracks after the peak beyond its share of the volume.",
+                                      band_diameters)
+                        : "Mean angle of the cracks.",
+         .alt = has_room ? "Mean angle of cracks and angle of the band: " + joined(said, "; ") + "."
+                         : "Mean angle of cracks: " + by_case(cases, mean_angle(-1), 3, "°") + ".",
          .content = chart,
          .per_row = 2});
   }
   content.panels.push_back({.id = "table",
-                            .caption = "Directions of cracks and the band with most of them. Directions at random have "
-                                       "a mean of 32.7° and half of the area within 30°.",
+                            .caption = std::string("Directions of cracks") +
+                                       (has_room ? " and the band with most of them." : ".") +
+                                       " Directions at random have a mean of 32.7° and half of the area within 30°.",
                             .alt = "",
                             .content = table,
                             .per_row = 1});
-  content.finding =
-      "Mean angle of the cracks to the axis and angle of the band with most cracks: " + joined(said, "; ") + ".";
-  content.finding += standing.empty()
-                         ? " No band holds more cracks than chance would put there."
-                         : " The band holds more cracks than chance would put there at " + listed(standing) + ".";
+  if (has_room) {
+    content.finding =
+        "Mean angle of the cracks to the axis and angle of the band with most cracks: " + joined(said, "; ") + ".";
+    content.finding += standing.empty()
+                           ? " No band holds more cracks than chance would put there."
+                           : " The band holds more cracks than chance would put there at " + listed(standing) + ".";
+  } else {
+    content.finding = "Mean angle of the cracks to the axis: " + by_case(cases, mean_angle(-1), 3, "°") +
+                      ". No band is looked for: too few particles lie across the specimen.";
+  }
   if (cases.size() > 2) {
-    content.finding += " The mean angle " + trend_words(cases, mean_angle(-1), "°", axis) + "; the band’s " +
-                       trend_words(cases, inclination, "°", axis) + ".";
+    content.finding += " The mean angle " + trend_words(cases, mean_angle(-1), "°", axis);
+    content.finding += has_room ? "; the band’s " + trend_words(cases, inclination, "°", axis) + "." : ".";
   }
   return content;
 }

@@ -152,14 +152,15 @@ FigureContent open_readings(const StudyResult& study) {
   content.panels.push_back(
       {.id = "table",
        .caption = "What the text leaves open: the size of the grain seeds, whose grain a particle takes in growth, and "
-                  "whether grains of one mineral meet with its own values. One reading changed at a time; mean and "
-                  "standard deviation over seeds. UCS/TS in the first row is the quotient of the published strengths.",
+                  "whether grains of one mineral meet with its own values. A row names what differs from the "
+                  "scenarios; with several seeds, mean and standard deviation. UCS/TS in the first row is the quotient "
+                  "of the published strengths.",
        .alt = "",
        .content = table,
        .per_row = 1});
   content.panels.push_back(
       {.id = "stress_strain",
-       .caption = "Stress and strain in uniaxial compression: the first four readings of the table, their first seed.",
+       .caption = "Stress and strain in uniaxial compression: the first four readings of ours, their first seed.",
        .alt = "Stress-strain curves of each reading; their peaks are in the table.",
        .content = curves(study, found),
        .per_row = 1});
@@ -170,7 +171,7 @@ FigureContent open_readings(const StudyResult& study) {
   }
   if (!least_and_most.empty()) {
     const auto [low, high] = std::ranges::minmax(least_and_most);
-    content.finding = fmt::format("Over all readings and seeds UCS lies between {} and {} MPa; published is {} MPa.",
+    content.finding = fmt::format("Over all readings UCS lies between {} and {} MPa; published is {} MPa.",
                                   fixed(low, 0), fixed(high, 0), published("ucs_ar_1"));
   }
   return content;

@@ -493,7 +493,10 @@ FigureContent progressive_failure(const StudyResult& study) {
   content.panels.push_back(
       {.id = "stress",
        .caption = std::string("Axial stress, volumetric and lateral strain (contraction positive), with our ") +
-                  (study.of_a_paper ? "and the published levels." : "levels."),
+                  (study.of_a_paper ? "and the published levels." : "levels.") +
+                  (study.laboratory.empty()
+                       ? ""
+                       : " Laboratory values stand at the strain of our own stage; bars are their uncertainty."),
        .alt = "Stress, volumetric and lateral strain against axial strain: " + found + ".",
        .content = stress_and_strains(study, base),
        .per_row = 1});

@@ -143,14 +143,21 @@ double cluster_volume(const dem::Record& record, std::size_t index) {
   return volume;
 }
 
+// By volume, of the particles.
 std::string mineral_shares(const dem::Record& record) {
   const auto names = minerals_of(record);
-  const auto mineral = record.table("particles").integer("mineral");
-  std::vector<std::string> parts;
-  for (std::size_t m = 0; m < names.size(); ++m) {
-    const auto number_of = std::ranges::count(mineral, static_cast<std::int32_t>(m));
-    parts.push_back(percent(static_cast<double>(number_of) / static_cast<double>(mineral.size()), 0) + " " + names[m]);
+  const dem::Table& particles = record.table("particles");
+  const auto mineral = particles.integer("mineral");
+  const auto radius = particles.real("radius");
+  std::vector<double> volume(names.size(), 0);
+  double all = 0;
+  for (std::size_t i = 0; i < mineral.size(); ++i) {
+    const double cube = radius[i] * radius[i] * radius[i];
+    volume[static_cast<std::size_t>(mineral[i])] += cube;
+    all += cube;
   }
+  std::vector<std::string> parts;
+  for (std::size_t m = 0; m < names.size(); ++m) parts.push_back(percent(volume[m] / all, 0) + " " + names[m]);
   return listed(parts);
 }
 
@@ -169,7 +176,7 @@ FigureContent specimen(const StudyResult& study) {
   content.panels.push_back({.id = "whole",
                             .caption = "The whole specimen.",
                             .alt = "Cylinder of " + count(static_cast<double>(base.table("particles").rows())) +
-                                   " spheres coloured by mineral: " + shares + " of the particles.",
+                                   " spheres coloured by mineral: " + shares + " by volume.",
                             .content = Picture{.scene = specimen_scene(study, base, width),
                                                .label = cases.front().label,
                                                .legend = mineral_legend(study, base)},
@@ -178,14 +185,14 @@ FigureContent specimen(const StudyResult& study) {
     content.panels.push_back(
         {.id = "section_" + item.id,
          .caption = "Longitudinal section.",
-         .alt = "Section along the axis at " + item.label + ": " + mineral_shares(*item.record) + ".",
+         .alt = "Section along the axis at " + item.label + ": " + mineral_shares(*item.record) + " by volume.",
          .content = Picture{.scene = section_scene(study, *item.record, width),
                             .label = item.label,
                             .legend = mineral_legend(study, *item.record)},
          .per_row = 4});
   }
   const Size size = size_of(base);
-  content.finding = fmt::format("{} particles in {} grains, {:g} mm × {:g} mm. By number, the particles at {} are {}.",
+  content.finding = fmt::format("{} particles in {} grains, {:g} mm × {:g} mm. By volume, the particles at {} are {}.",
                                 count(static_cast<double>(base.table("particles").rows())),
                                 count(static_cast<double>(base.table("grains").rows())), 1e3 * size.diameter,
                                 1e3 * size.height, cases.front().label, shares);
@@ -227,13 +234,15 @@ FigureContent grain_cluster(const StudyResult& study) {
   // No verdict: the ellipsoids follow the formulas by construction, and one grain says nothing of what growth makes of them.
   std::vector<std::string> volumes;
   const double first = cluster_volume(*cases.front().record, *index);
-  for (const SeriesCase& item : cases) volumes.push_back(number(cluster_volume(*item.record, *index) / first, 2));
+  for (std::size_t i = 1; i < cases.size(); ++i)
+    volumes.push_back(number(cluster_volume(*cases[i].record, *index) / first, 2) + " (" + cases[i].label + ")");
   content.finding =
       fmt::format("The ellipsoids have one volume by construction. Grown, grain {} has {}", *index, listed(counts));
   if (cases.size() > 1)
     content.finding += fmt::format(": {} times its volume at {}", listed(volumes), cases.front().label);
-  content.finding += fmt::format(". By second moments the aspect ratio of all grains is {}.",
-                                 by_case(cases, quantity::realised_ar, 3));
+  content.finding +=
+      fmt::format(". Measured by second moments along the set axis, the mean aspect ratio over all grains is {}.",
+                  by_case(cases, quantity::realised_ar, 3));
   return content;
 }
 
