@@ -116,6 +116,37 @@ double largest_fall(const Record& record, double from, double to) {
   return most;
 }
 
+Fall fall_at(const Record& record, double wanted) {
+  const Table& history = record.table("history");
+  const auto time = history.real("time"), strain = history.real("axial_strain"), stress = history.real("axial_stress");
+  if (time.empty()) return {none, none, none, none, none};
+  const std::size_t now = row_at(time, wanted);
+  const auto top = static_cast<std::size_t>(
+      std::max_element(stress.begin(), stress.begin() + static_cast<std::ptrdiff_t>(now) + 1) - stress.begin());
+  std::size_t low = top;
+  for (std::size_t i = top; i < stress.size() && (i <= now || stress[i] < stress[top]); ++i) {
+    if (stress[i] < stress[low]) low = i;
+  }
+  return {time[top], strain[top], stress[top], time[low], stress[low]};
+}
+
+double kinetic_over_work(const Record& record, double time) {
+  const Table& history = record.table("history");
+  const auto kinetic = history.real("kinetic"), work = history.real("work");
+  if (kinetic.empty()) return none;
+  std::size_t most = row_at(history.real("time"), time);
+  for (std::size_t i = most; i < kinetic.size(); ++i) {
+    if (kinetic[i] > kinetic[most]) most = i;
+  }
+  return kinetic[most] / work[most];
+}
+
+double viscous_share(const Record& record) {
+  const Table& history = record.table("history");
+  const auto heat = sum_of(history, {"viscous_heat", "breaking_heat_normal", "breaking_heat_shear", "frictional_heat"});
+  return heat.empty() ? none : history.real("viscous_heat").back() / heat.back();
+}
+
 double straightness(const Record& record, double wanted) {
   const auto time = record.table("history").real("time"), strain = record.table("history").real("axial_strain"),
              stress = record.table("history").real("axial_stress");

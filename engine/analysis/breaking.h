@@ -18,6 +18,19 @@ double opened_below(const Record& record, double stress);
 /// The largest fall of the stress between two times (s), over the stress that it falls from; only while bonds break.
 double largest_fall(const Record& record, double from, double to);
 
+/// A fall of the stress, from its largest value up to a time; its end is the least one before the stress is as large again.
+struct Fall {
+  double time = 0, strain = 0, stress = 0;  ///< of its beginning: s, 1, Pa
+  double low_time = 0, low_stress = 0;      ///< of its end
+};
+/// The one that goes on at a time (s): the drop at A1 of the lattice in compression, at the time when most bonds open.
+Fall fall_at(const Record& record, double time);
+
+/// Largest kinetic energy from a time (s) on over the work done by then.
+double kinetic_over_work(const Record& record, double time);
+/// Viscous heat over all heat, at the end.
+double viscous_share(const Record& record);
+
 /// Stress over strain at a time against the same at a third of that strain: 1 on a straight line.
 double straightness(const Record& record, double time);
 

@@ -15,7 +15,8 @@ inline constexpr double peak_fall = 0.25;
 /// True for other records: their tests follow the stress beyond its peak, or give no strength.
 bool passed_peak(const Record& record);
 
-/// What a result is called: its peak_name where it has one and every record passed its peak, else its name.
+/// What a result is called: its peak_name where it has one and every record passed its peak, else its name; growth instead of
+/// strain where the test of all is the growth of grains.
 std::string_view name_of(const Quantity& quantity, std::span<const Record* const> records);
 
 }  // namespace dem::analysis

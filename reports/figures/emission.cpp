@@ -74,6 +74,12 @@ render::Chart activity_chart(const Emission& e) {
   chart.series = {
       so_far("cracks", 0, e.hits.all.begin(), e.hits.all.end(), [](const analysis::Hit& h) { return h.time; }),
       so_far("events", 1, e.events.begin(), e.events.end(), [](const analysis::Event& v) { return v.time; })};
+  constexpr double few = 20;  // cracks per event from which on events lie on zero
+  const auto cracks = static_cast<double>(e.hits.all.size()), events = static_cast<double>(e.events.size());
+  if (events > 0 && cracks > few * events) {
+    chart.left.logarithmic = true;
+    chart.left.low = 1;
+  }
   chart.legend = render::Chart::Legend::below;
   return chart;
 }
@@ -109,7 +115,13 @@ render::Chart rate_chart(const std::vector<Emission>& all) {
       while (hit < e.hits.all.size() && e.hits.all[hit].time <= time[row]) ++hit;
       const double grown = 1e4 * (strain[row] - strain[from]);  // in 0.01 %
       const double rate = grown > 0 ? static_cast<double>(hit - first) / grown : 0;
-      if (!(rate > 0)) continue;
+      if (!(rate > 0)) {  // no line across steps without cracks
+        if (!series.x.empty()) {
+          series.x.push_back(100 * (k - 0.5) / steps);
+          series.y.push_back(std::nan(""));
+        }
+        continue;
+      }
       series.x.push_back(100 * (k - 0.5) / steps);
       series.y.push_back(rate);
       low = std::min(low, rate);

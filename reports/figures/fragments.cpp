@@ -24,7 +24,7 @@ constexpr std::array<Rank, 6> ranks{{{"largest", {0.965, 0.902, 0.741}},
                                      {"second", {0.514, 0.757, 0.925}},
                                      {"third", {0.878, 0.455, 0.145}},
                                      {"fourth", {0.086, 0.478, 0.345}},
-                                     {"smaller", {0.420, 0.133, 0.376}},
+                                     {"fifth and smaller", {0.420, 0.133, 0.376}},
                                      {"single particles", {0.110, 0.110, 0.130}}}};
 
 // Of every part: single particles have the last, the others theirs by size.
@@ -108,9 +108,10 @@ Picture fragments_picture(const Broken& broken, double apart, const std::array<r
     shares[rank[k]] += broken.parts.share(k);
   }
   for (std::size_t r = 0; r < ranks.size(); ++r) {
+    if (numbers[r] == 0) continue;
     const std::string share =
         r < 4 ? (shares[r] < 0.0005 ? "< 0.1 %" : percent(shares[r], 1)) : count(static_cast<double>(numbers[r]));
-    picture.legend.push_back({ranks[r].colour, std::string(ranks[r].name), numbers[r] > 0 ? share : "none"});
+    picture.legend.push_back({ranks[r].colour, std::string(ranks[r].name), share});
   }
   return picture;
 }
@@ -195,7 +196,7 @@ TextTable fragments_table(const std::vector<Broken>& cases) {
     std::vector<double> shares;  // single particles are counted apart, as in the pictures
     for (std::size_t k = 0; k < broken.parts.all.size(); ++k)
       if (broken.parts.all[k].particles > 1) shares.push_back(broken.parts.share(k));
-    const auto share = [&](std::size_t k) { return k < shares.size() ? number(100 * shares[k], 3) : std::string("–"); };
+    const auto share = [&](std::size_t k) { return k < shares.size() ? fixed(100 * shares[k], 1) : std::string("–"); };
     table.rows.push_back({broken.label, std::to_string(main), share(0), share(1), share(2),
                           count(static_cast<double>(broken.parts.all.size() - single - main)),
                           count(static_cast<double>(single)),
@@ -216,10 +217,10 @@ std::string fragments_words(const Broken& broken) {
   };
   if (main == 1 && smaller + single == 0) return broken.label + ": still in one part";
   if (main == 1)
-    return fmt::format("{}: one part with {} of the volume, {} and {}", broken.label, percent(broken.parts.share(0), 0),
+    return fmt::format("{}: one part with {} of the volume, {} and {}", broken.label, percent(broken.parts.share(0), 1),
                        counted(smaller, "smaller part"), counted(single, "single particle"));
   return fmt::format("{}: {} above 5 % of the volume, the largest with {}, {} and {}", broken.label,
-                     counted(main, "part"), percent(broken.parts.share(0), 0), counted(smaller, "smaller part"),
+                     counted(main, "part"), percent(broken.parts.share(0), 1), counted(smaller, "smaller part"),
                      counted(single, "single particle"));
 }
 

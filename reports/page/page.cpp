@@ -50,8 +50,17 @@ bool is_confined(const StudyResult& study) {
   });
 }
 
-/// Without those about the paper's rock, where another one is studied, and those about a test, a pressure or a key's value
-/// that the study does not have.
+/// Whether the cases of the study differ in a parameter.
+bool is_varied(const StudyResult& study, const std::string& parameter) {
+  const auto* first = study.cases.empty() ? nullptr : dem::find_value(study.cases.front().parameters, parameter);
+  return first && std::ranges::any_of(study.cases, [&](const CaseResult& one) {
+           const auto* value = dem::find_value(one.parameters, parameter);
+           return value && *value != *first;
+         });
+}
+
+/// Without those about the paper's rock, where another one is studied, and those about a test, a pressure, a key's value
+/// (`when`; `unless`: about all others) or a varied parameter that the study does not have.
 Json about(const StudyResult& study, const Json& entries) {
   Json kept = Json::array();
   for (Json one : entries) {
@@ -66,13 +75,19 @@ Json about(const StudyResult& study, const Json& entries) {
     one.erase("test");
     if (one.value("confined", false) && !is_confined(study)) continue;
     one.erase("confined");
-    const Json when = one.value("when", Json::object());
-    if (std::ranges::any_of(when.items(), [&](const auto& key) {
-          return study.scenario->text(key.key()) != key.value().template get<std::string>();
-        })) {
-      continue;
-    }
+    const auto is_so = [&](const auto& key) {
+      const Json& wanted_value = key.value();
+      return wanted_value.is_number() ? study.scenario->real(key.key()) == wanted_value.template get<double>()
+                                      : study.scenario->text(key.key()) == wanted_value.template get<std::string>();
+    };
+    const Json when = one.value("when", Json::object()), unless = one.value("unless", Json::object());
+    if (!std::ranges::all_of(when.items(), is_so)) continue;
+    if (std::ranges::any_of(unless.items(), is_so)) continue;
+    const std::string varied = one.value("varied", "");
+    if (!varied.empty() && !is_varied(study, varied)) continue;
     one.erase("when");
+    one.erase("unless");
+    one.erase("varied");
     const std::string more = one.value("of_the_rock", "");
     one.erase("of_the_rock");
     if (one.contains("text")) {

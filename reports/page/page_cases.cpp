@@ -41,6 +41,14 @@ std::string specimen_text(const StudyResult& study) {
   return text;
 }
 
+/// The loading steps of a case, where the scenario multiplies those of all: both factors together.
+dem::ParameterValue whole_factor(const dem::Scenario& scenario, std::string_view parameter,
+                                 const dem::ParameterValue& value) {
+  const auto* own = std::get_if<double>(&value);
+  if (parameter != "factor" || !own || !scenario.declares("loading.factor")) return value;
+  return *own * scenario.real("loading.factor");
+}
+
 /// Whether the cases differ in a parameter: what all have alike is in the scenario.
 bool varies(const StudyResult& study, std::string_view parameter) {
   std::set<std::string> values;
@@ -143,14 +151,17 @@ PageData cases_data(const StudyResult& study) {
       std::vector<std::string> parameters;
       for (const auto& [id, value] : result.parameters) {
         const bool said = id == "test" || !varies(study, id) || (id == "seed" && repeats.size() > 1);
-        const std::string part = said ? "" : parameter_words(dem::find_parameter(study.parameters, id), value);
+        const std::string part =
+            said ? ""
+                 : parameter_words(dem::find_parameter(study.parameters, id), whole_factor(*study.scenario, id, value));
         if (!part.empty()) parameters.push_back(part);
       }
       if (parameters.empty()) {  // nothing sets the cases apart: what all have alike
         for (const auto& [id, value] : result.parameters) {
           if (id == "test" || id == "seed") continue;
           const dem::Parameter& parameter = dem::find_parameter(study.parameters, id);
-          const std::string part = parameter.symbol.empty() ? "" : parameter_words(parameter, value);
+          const std::string part =
+              parameter.symbol.empty() ? "" : parameter_words(parameter, whole_factor(*study.scenario, id, value));
           if (!part.empty()) parameters.push_back(part);
         }
       }

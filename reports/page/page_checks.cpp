@@ -82,7 +82,15 @@ PageData checks_data(const StudyResult& study) {
     const std::span members(all.data() + begin, end - begin);
     const bool powers = std::ranges::any_of(
         members, [](const auto& one) { return needs_powers(one.second->value) || needs_powers(one.second->limit); });
-    const auto amount = [&](double value) { return powers ? scientific(value, 2) : number(value, 2); };
+    const auto text = [&](double value, int digits) {
+      return powers ? scientific(value, digits) : number(value, digits);
+    };
+    int digits = 2;  // as many as tell a value from its limit
+    for (const auto& [result, check] : members) {
+      while (digits < 5 && check->value != check->limit && text(check->value, digits) == text(check->limit, digits))
+        ++digits;
+    }
+    const auto amount = [&](double value) { return text(value, digits); };
     PageData rows = new_list();
     for (const auto& [result, check] : members) {
       PageData item;

@@ -315,7 +315,7 @@ PageData figures_data(const std::vector<DrawnFigure>& figures, const std::filesy
     data.set("has_source", !figure.mirrors.empty());
     data.set("statement", figure.statement);
     data.set("has_statement", !figure.statement.empty());
-    data.set("says_who", figure.expected ? "Expected." : "Published.");
+    data.set("says_who", figure.expected ? "Expected (by us)." : "Published.");
     const std::string ours =
         figure.standing + (figure.standing.empty() || figure.finding.empty() ? "" : " ") + figure.finding;
     data.set("finding", ours);

@@ -113,7 +113,9 @@ std::string deviation_text(const Comparison& row) {
   if (!row.deviation) return "–";
   if (*row.deviation == 0 && std::holds_alternative<std::pair<double, double>>(row.published)) return "within";
   if (row.relative) return with_sign(fixed(100 * *row.deviation, 1)) + " %";
-  return with_unit(with_sign(number(*row.deviation, 2)), difference_unit(row.unit, *row.deviation));
+  constexpr double tens = 10;  // 99.9 points are not 100
+  const int digits = std::abs(*row.deviation) < tens ? 2 : 3;
+  return with_unit(with_sign(number(*row.deviation, digits)), difference_unit(row.unit, *row.deviation));
 }
 
 PageData comparisons_data(const Comparisons& comparisons) {
@@ -152,6 +154,12 @@ PageData comparisons_data(const Comparisons& comparisons) {
   block.set("paper", comparisons.paper);
   block.set("published_scale", comparisons.scale);
   block.set("counts", tally_text(comparisons.tally(), comparisons.scale));
+  // What the rows need to be read, and no more.
+  const auto any = [&](auto is) { return std::ranges::any_of(comparisons.rows, is); };
+  block.set("has_intervals", any([](const Comparison& row) { return row.estimate && row.estimate->has_interval(); }));
+  block.set("has_trends", any([](const Comparison& row) { return row.kind == "trend"; }));
+  block.set("has_fits", any([](const Comparison& row) { return row.detail.find(" of the fit") != std::string::npos; }));
+  block.set("has_readings", any([](const Comparison& row) { return row.role == Role::sensitivity; }));
   block.set("rows", rows);
   PageData list = new_list();
   list.push_back(block);

@@ -70,23 +70,30 @@ double peak_time(const Record& record) {
   return record.table("history").real(
       "time")[static_cast<std::size_t>(std::ranges::max_element(stress) - stress.begin())];
 }
-double parting_time(const Record& record) {
+// Of a block that parts.
+double parted(const Record& record, const char* id) {
   if (pieces_of(record) < 2) throw std::out_of_range("the block stays in one part");
-  return 100 * result_of(record, "failure_time");
+  return 100 * result_of(record, id);
 }
+Fall a1_of(const Record& record) { return fall_at(record, result_of(record, "a1_time")); }
 constexpr std::array lattice{
-    Reading{"parting_time", parting_time},  // in 10⁻² s
+    Reading{"parting_time", [](const Record& r) { return parted(r, "failure_time"); }},  // in 10⁻² s
+    Reading{"friction_at_parting", [](const Record& r) { return parted(r, "frictional_share_at_parting"); }},  // %
+    Reading{"a1_stress", [](const Record& r) { return 1e-6 * a1_of(r).stress; }},                              // MPa
+    Reading{"a1_stress_after", [](const Record& r) { return 1e-6 * a1_of(r).low_stress; }},
+    Reading{"kinetic_over_work", [](const Record& r) { return 100 * kinetic_over_work(r, peak_time(r)); }},
+    Reading{"viscous_share", [](const Record& r) { return 100 * viscous_share(r); }},
     Reading{"pieces", [](const Record& r) { return static_cast<double>(pieces_of(r)); }},
     Reading{"first_at_boundary", [](const Record& r) { return first_at_boundary(r); }},
     Reading{"opened_below_theory",
             [](const Record& r) { return 100 * opened_below(r, 1e6 * result_of(r, "opening_stress_theory")); }},
-    Reading{"fall_before_a1", [](const Record& r) { return 100 * largest_fall(r, 0, result_of(r, "a1_time")); }},
+    Reading{"fall_before_a1", [](const Record& r) { return 100 * largest_fall(r, 0, a1_of(r).time); }},
     Reading{"fall_before_peak",
             [](const Record& r) {
-              const double end = peak_time(r), a1 = result_of(r, "a1_time");
+              const double end = peak_time(r), a1 = a1_of(r).time;
               return 100 * largest_fall(r, a1 + 0.5 * (end - a1), end);
             }},
-    Reading{"straightness_to_a1", [](const Record& r) { return straightness(r, result_of(r, "a1_time")); }},
+    Reading{"straightness_to_a1", [](const Record& r) { return straightness(r, a1_of(r).time); }},
     Reading{"elastic_left", [](const Record& r) { return 100 * elastic_left(r, result_of(r, "failure_time")); }},
     Reading{"kinetic_left", [](const Record& r) { return 100 * kinetic_left(r, result_of(r, "failure_time")); }},
     Reading{"breaking_after_sliding",

@@ -41,8 +41,8 @@ void check_tolerance(const Json& entry, const std::string& id) {
 
 void check_kind(const Json& entry, const std::string& id) {
   const Names needed = {"id", "topics", "source", "quantity", "kind", "of"};
-  const Names allowed = {"unit",   "statement", "optional", "scale",   "fitted",
-                         "theory", "follows",   "stated",   "derived", "readings"};
+  const Names allowed = {"unit",    "statement", "optional", "scale",    "fitted",    "theory",
+                         "follows", "stated",    "derived",  "readings", "of_loading"};
   const auto with = [](Names names, std::initializer_list<const char*> more) {
     names.insert(more.begin(), more.end());
     return names;

@@ -227,9 +227,11 @@ void evaluate(const StudyResult& study, const Terms& terms, const Json& entry, c
     row.verdict = elsewhere ? Verdict::not_judged : row.outcome;
     // None is none in a specimen of any size.
     const bool none = std::get_if<double>(&row.published) && std::get<double>(row.published) == 0;
-    if (elsewhere && row.kind == "value" && !none && terms.of_size(term)) {
+    const bool loading = entry.value("of_loading", false);
+    if (elsewhere && row.kind == "value" && !none && (loading || terms.of_size(term))) {
       row.deviation.reset();
-      row.detail += std::string(row.detail.empty() ? "" : "; ") + "grows with the specimen: not compared at this scale";
+      row.detail += std::string(row.detail.empty() ? "" : "; ") +
+                    (loading ? "follows the loading" : "grows with the specimen") + ": not compared at this scale";
     }
   } catch (const NotComputed& reason) {
     row.detail = reason.why;

@@ -20,7 +20,8 @@
 //   "derived": "206.8 / 9.8" computed here from what the paper prints; may stand beside "follows" or "theory"
 // What is stated or derived is no published number: figures do not draw it.
 // "scale": "high" if the number belongs to another scale than its paper's (it is shown at that one only), "any" if the scale
-// does not matter. "optional": true leaves the number out where the scenario has not the case. "quoted" are numbers of the
+// does not matter. "of_loading": true: a value that hangs on the rate of loading, which is not compared at other scales than
+// its own. "optional": true leaves the number out where the scenario has not the case. "quoted" are numbers of the
 // paper that figures show and nothing of ours is compared with.
 // "unchecked": [{"source", "statement", "why"}] are statements about results that no number can be put beside; the page of the
 // paper in docs/papers lists them.

@@ -67,6 +67,7 @@ void Tally::add(Role role, Verdict verdict) {
   if (role == Role::stated) ++stated;
   if (role == Role::stated && verdict == Verdict::missed) ++stated_missed;
   if (role == Role::derived) ++derived;
+  if (role == Role::follows) ++follows;
   if (role != Role::number) return;
   switch (verdict) {
     case Verdict::met:
@@ -118,6 +119,8 @@ std::string tally_text(const Tally& counts, std::string_view scale) {
                                 counts.stated_missed > 0 ? fmt::format("; {} missed", counts.stated_missed) : ""));
   }
   if (counts.derived > 0) apart.push_back(fmt::format("{} derived from published numbers", counts.derived));
+  if (counts.follows > 0)
+    apart.push_back(fmt::format("{} that follow{} from others", counts.follows, counts.follows == 1 ? "s" : ""));
   if (counts.fitted > 0) apart.push_back(fmt::format("{} to which a choice was fitted", counts.fitted));
   if (counts.theory > 0) {
     apart.push_back(fmt::format("{} that compare{} theory with theory", counts.theory, counts.theory == 1 ? "s" : ""));

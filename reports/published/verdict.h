@@ -55,7 +55,7 @@ Verdict judge_sign(const dem::analysis::Estimate& ours, int sign, bool by_chance
 /// How many rows have which verdict. Rows that are not of role `number` are counted by role alone.
 struct Tally {
   int met = 0, missed = 0, undecided = 0, not_judged = 0, not_computed = 0;
-  int fitted = 0, theory = 0, stated = 0, derived = 0;
+  int fitted = 0, theory = 0, stated = 0, derived = 0, follows = 0;
   int stated_missed = 0;  ///< of `stated`
   /// met to not_computed
   [[nodiscard]] int numbers() const { return met + missed + undecided + not_judged + not_computed; }

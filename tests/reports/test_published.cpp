@@ -11,6 +11,7 @@
 #include "engine/lattice/quantities.h"
 #include "engine/texture/quantities.h"
 #include "reports/figures/table.h"
+#include "reports/page/page_parts.h"
 #include "reports/published/papers.h"
 #include "reports/published/published.h"
 #include "reports/published/standing.h"
@@ -175,12 +176,13 @@ TEST_CASE("only published numbers count as met or missed") {
   CHECK(counts.theory == 5);
   CHECK(counts.stated == 5);
   CHECK(counts.derived == 5);
+  CHECK(counts.follows == 5);
   CHECK(reports::tally_text(counts, "paper") ==
         "Of 5 published numbers and trends, 1 is met, 1 missed, 1 undecided, 1 not judged (published at paper scale) "
         "and 1 not "
         "computed. Counted separately: 5 published in words (the limits are ours; 1 missed), 5 derived from "
         "published "
-        "numbers, 5 to which a choice was fitted and 5 that compare theory with theory.");
+        "numbers, 5 that follow from others, 5 to which a choice was fitted and 5 that compare theory with theory.");
   CHECK(reports::tally_text({.met = 0, .missed = 0, .undecided = 0, .not_judged = 3}, "paper") ==
         "None of the 3 published numbers and trends is judged: they belong to the scale “paper”.");
   CHECK(reports::tally_text({.met = 0, .missed = 2}, "paper") ==
@@ -311,6 +313,10 @@ TEST_CASE_FIXTURE(Fixture, "at another scale nothing is judged, and what grows w
   CHECK(count.verdict == Verdict::not_judged);
   CHECK_FALSE(count.deviation.has_value());
   CHECK(count.detail == "grows with the specimen: not compared at this scale");
+  const Comparison loading = one(value("250", R"({"relative": 0.1}, "of_loading": true)"));
+  CHECK_FALSE(loading.deviation.has_value());
+  CHECK(loading.detail == "follows the loading: not compared at this scale");
+  CHECK(one(value("250", R"({"relative": 0.1}, "of_loading": true, "scale": "draft")")).deviation.has_value());
   CHECK(one(value("1", R"({"relative": 0.1})", share)).deviation.has_value());
   CHECK(one(falls).verdict == Verdict::not_judged);
   CHECK(one(value("250", R"({"relative": 0.1}, "scale": "any")")).verdict == Verdict::missed);
@@ -588,4 +594,22 @@ TEST_CASE("the lattice's figures take what the paper states from its file") {
     CAPTURE(id);
     CHECK(study.published_value(id) < 0);
   }
+}
+
+TEST_CASE("what was run tells the loading steps with the factor of the scale") {
+  const auto told = [](const char* scale) {
+    const dem::Scenario scenario = dem::Scenario::read(DEM_SOURCE_DIR "/scenarios/quartzite_strength.toml", scale, {},
+                                                       [](std::string_view) { return dem::lattice::keys(); });
+    dem::Record record;
+    record.parameters = {{"test", "tension"}, {"factor", 1.0}};
+    record.quantities = dem::lattice::quantities();
+    const reports::StudyResult study{.scenario = &scenario,
+                                     .cases = {{"tension", record.parameters, &record, ""}},
+                                     .quantities = dem::lattice::quantities(),
+                                     .parameters = dem::lattice::parameters()};
+    auto rows = reports::cases_data(study);
+    return rows.list_value().front().get("parameters")->string_value();
+  };
+  CHECK(told("draft") == "loading steps × 5");
+  CHECK(told("paper") == "loading steps × 1");
 }

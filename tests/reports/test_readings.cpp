@@ -127,6 +127,46 @@ TEST_CASE("falls, straightness and what is left of energies") {
   CHECK(first_at_boundary(r) == 1);  // all are outside
 }
 
+TEST_CASE("a fall begins at the largest stress so far, and its end is the least before the stress is as large again") {
+  Record r;
+  Table h{"history", {}, {}};
+  h.add("time", "s", Reals{0, 1, 2, 3, 4, 5, 6, 7});
+  h.add("axial_strain", "1", Reals{0, 1, 2, 3, 4, 5, 6, 7});
+  h.add("axial_stress", "Pa", Reals{0, 57, 55, 44, 39, 50, 60, 1});
+  r.tables = {h};
+  for (const double while_it_falls : {1.0, 2.0, 3.0}) {
+    const dem::analysis::Fall fall = dem::analysis::fall_at(r, while_it_falls);
+    CHECK(fall.time == 1);
+    CHECK(fall.strain == 1);
+    CHECK(fall.stress == 57);
+    CHECK(fall.low_time == 4);
+    CHECK(fall.low_stress == 39);
+  }
+  CHECK(dem::analysis::fall_at(r, 6).low_stress == 1);
+}
+
+TEST_CASE("kinetic energy and viscous heat are shares of one whole in every test") {
+  Record r = block();
+  Table& h = r.tables.back();
+  h.add("work", "J", Reals{0, 1, 4, 5, 20, 10});
+  h.add("viscous_heat", "J", Reals{0, 0, 0, 0, 1, 5});
+  h.add("frictional_heat", "J", Reals{0, 0, 0, 0, 0, 1});
+  CHECK(dem::analysis::kinetic_over_work(r, 3) == doctest::Approx(0.2));
+  CHECK(dem::analysis::kinetic_over_work(r, 5) == doctest::Approx(0.1));
+  CHECK(dem::analysis::viscous_share(r) == doctest::Approx(0.5));
+}
+
+TEST_CASE("where grains grow between walls that are held, growth is not called strain") {
+  const dem::Quantity onset{.id = "onset_strain", .name = "Strain at the first break"};
+  Record growth, shear;
+  growth.parameters = {{"test", "growth"}};
+  shear.parameters = {{"test", "pure_shear"}};
+  const std::vector<const Record*> grown{&growth}, both{&growth, &shear};
+  CHECK(dem::analysis::name_of(onset, grown) == "Growth at the first break");
+  CHECK(dem::analysis::name_of(onset, both) == "Strain at the first break");
+  CHECK(dem::analysis::name_of(onset, {}) == "Strain at the first break");
+}
+
 TEST_CASE("a stress that still rises at the end of a run has no peak") {
   const dem::Quantity largest{.id = "largest", .name = "Largest stress", .peak_name = "Peak stress"};
   const auto sheet = [](const Reals& loaded, const Reals& left) {

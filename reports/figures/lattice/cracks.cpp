@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/analysis/breaking.h"
 #include "engine/analysis/fits.h"
 #include "reports/figures/lattice/parts.h"
 #include "reports/figures/table.h"
@@ -62,7 +63,7 @@ render::Discs discs_of(const dem::Record& r, Keep keep, Colour colour) {
   return discs;
 }
 
-constexpr render::Point oblique{-0.80, 0.50, -0.33}, along_y{0, 1, 0};
+constexpr render::Point oblique{-0.80, 0.50, -0.33}, along_y{0, -1, 0};  // as pictures of parts and events
 
 render::ColourBar time_bar(double from, double to, const std::string& since) {
   render::ColourBar bar{.title = "µs since " + since, .low = 0, .high = 1e6 * (to - from), .colours = {}};
@@ -133,7 +134,11 @@ Panel halves(const dem::Record& r, const std::string& id, const std::string& lab
   p.scene.width = 620;
   p.scene.height = 470;
   p.label = label;
-  p.legend = {{moved_down, "moved down"}, {moved_up, "moved up"}};
+  p.legend = {{moved_down, "moved down"},
+              {{0.5 * (moved_down.red + moved_up.red), 0.5 * (moved_down.green + moved_up.green),
+                0.5 * (moved_down.blue + moved_up.blue)},
+               "hardly moved"},
+              {moved_up, "moved up"}};
   return {.id = id,
           .caption = "At the end, displacements enlarged " + number(enlarged, 2) + " times.",
           .alt = "The parts of the block have moved " + number(1e6 * apart, 3) +
@@ -144,7 +149,7 @@ Panel halves(const dem::Record& r, const std::string& id, const std::string& lab
 
 // How far bonds have opened from the first ones, across the load, against time.
 struct Front {
-  render::Series points, reach;
+  render::Series points, reach, line;
   double speed = std::nan("");  // m/s, straight line through the reach from 10 to 90 % of the way
 };
 Front front_of(const dem::Record& r) {
@@ -177,7 +182,10 @@ Front front_of(const dem::Record& r) {
     way.push_back(f.reach.y[i]);
   }
   const auto line = analysis::fit_line(time, way);
-  if (line && line->points > 2) f.speed = 1e3 * line->slope.value;
+  if (!line || line->points < 3) return f;
+  f.speed = 1e3 * line->slope.value;
+  f.line.x = {time.front(), time.back()};
+  f.line.y = {line->at(time.front()), line->at(time.back())};
   return f;
 }
 
@@ -203,8 +211,8 @@ FigureContent crack_maps(const StudyResult& study) {
   } else if (pressed) {
     const double c1 = pressed->value_or_nan(quantity::sliding_start),
                  c2 = c1 + pressed->value_or_nan(quantity::sliding_duration);
-    content.panels.push_back(by_mode(*pressed, "compression_opening", pressed->value_or_nan(quantity::a1_time) + 3e-6,
-                                     "Compression, after A₁"));
+    const double dropped = analysis::fall_at(*pressed, pressed->value_or_nan(quantity::a1_time)).low_time;
+    content.panels.push_back(by_mode(*pressed, "compression_opening", dropped, "Compression, least stress after A₁"));
     content.panels.push_back(by_mode(*pressed, "compression_end", 1e9, "Compression, at the end"));
     content.panels.push_back(by_time(*pressed, "compression_time", c1, c2, "Compression, C₁ to C₂", oblique, "C₁",
                                      "Bonds that broke at the failure, by time since C₁."));
@@ -269,6 +277,7 @@ FigureContent crack_front(const StudyResult& study) {
     f.points.marker = render::Marker::circle;
     f.reach = styled(f.reach, "farthest so far", 5);
     chart.series = {f.points, f.reach};
+    if (!f.line.x.empty()) chart.series.push_back(styled(f.line, speed_text(f.speed), 0, render::Line::dash));
     const double speed = study.published_value("crack_speed");  // m/s
     const double last = f.points.x.empty() ? 0 : std::ranges::max(f.points.x);
     if (std::isfinite(speed) && last > 0) {
@@ -281,13 +290,14 @@ FigureContent crack_front(const StudyResult& study) {
     }
     chart.legend = render::Chart::Legend::bottom_right;
     chart.height = 240;
-    content.panels.push_back(
-        {.id = planes,
-         .caption = fmt::format(
-             "Planes: {}. Distance across the load between each opened bond and the nearest of the first.", planes),
-         .alt = fmt::format("The farthest opening runs at {}.",
-                            std::isfinite(f.speed) ? speed_text(f.speed) : "no one speed"),
-         .content = chart});
+    content.panels.push_back({.id = planes,
+                              .caption = fmt::format("Planes: {}. Distance across the load between each opened bond "
+                                                     "and the nearest of the first; the dashed line is "
+                                                     "fitted to the farthest so far from 10 to 90 % of its way.",
+                                                     planes),
+                              .alt = fmt::format("The farthest opening runs at {}.",
+                                                 std::isfinite(f.speed) ? speed_text(f.speed) : "no one speed"),
+                              .content = chart});
     if (std::isfinite(f.speed)) {
       fronts.push_back(speed_text(f.speed) + " (" + planes + " planes)");
     } else {
@@ -295,7 +305,7 @@ FigureContent crack_front(const StudyResult& study) {
     }
     widths.push_back(number(r->value_or_nan(quantity::crack_speed), 4) + " m/s (" + planes + " planes)");
   }
-  if (!fronts.empty()) said.push_back("the crack front runs at " + listed(fronts));
+  if (!fronts.empty()) said.push_back("between 10 and 90 % of its way the crack front runs at " + listed(fronts));
   if (!few.empty())
     said.push_back("with " + listed(few) + " it advances in fewer than three steps, which give no speed");
   if (!widths.empty()) said.push_back("the width of the block over the time from D₁ to D₂ gives " + listed(widths));

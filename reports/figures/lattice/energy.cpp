@@ -49,7 +49,7 @@ struct CompressionMarks {
 CompressionMarks marks_of(const dem::Record& r) {
   const dem::Table& h = r.table("history");
   CompressionMarks m{};
-  m.a1 = r.value_or_nan(quantity::a1_time);
+  m.a1 = analysis::fall_at(r, r.value_or_nan(quantity::a1_time)).time;
   m.a2 = peak_time(h);
   m.a3 = time_of_least(h, elastic_columns(), m.a2);
   m.c1 = r.value_or_nan(quantity::sliding_start);
@@ -128,15 +128,16 @@ namespace {
 // From before the first opening to beyond A1.
 render::Chart opening_chart(const dem::Record& r, const render::Series& curve) {
   render::Chart chart;
-  chart.x.title = "Axial strain (10⁻³)";
+  chart.x.title = "Axial strain (%)";
   chart.left.title = "Axial stress (MPa)";
-  const double a1 = 1e3 * r.value_or_nan(quantity::a1_strain), stress = r.value_or_nan(quantity::a1_stress),
+  const analysis::Fall fall = analysis::fall_at(r, r.value_or_nan(quantity::a1_time));
+  const double a1 = 100 * fall.strain, stress = 1e-6 * fall.stress, low = 1e-6 * fall.low_stress,
                first = r.value_or_nan(quantity::first_opening);
   const auto at_first = std::ranges::find_if(curve.y, [=](double y) { return y >= first; });
   if (at_first == curve.y.end()) return chart;
   const double begin = curve.x[static_cast<std::size_t>(at_first - curve.y.begin())];
   chart.x.low = 0.9 * std::min(begin, a1), chart.x.high = 1.4 * a1;
-  chart.left.low = 0.9 * std::min(first, r.value_or_nan(quantity::a1_stress_after));
+  chart.left.low = 0.9 * std::min(first, low);
   chart.left.high = stress + 0.25 * (stress - *chart.left.low);
   render::Series part = curve;
   part.x.clear();
@@ -170,15 +171,16 @@ FigureContent stress_strain(const StudyResult& study) {
   }
   const dem::Table& h = r->table("history");
   const CompressionMarks m = marks_of(*r);
+  const analysis::Fall fall = analysis::fall_at(*r, r->value_or_nan(quantity::a1_time));
   render::Chart chart;
-  chart.x.title = "Axial strain (10⁻³)";
+  chart.x.title = "Axial strain (%)";
   chart.left.title = "Axial stress (MPa)";
   chart.left.low = 0;
-  render::Series curve = styled(whole(h, "axial_strain", 1e3, {"axial_stress"}, 1e-6), "", 5);
+  render::Series curve = styled(whole(h, "axial_strain", 100, {"axial_stress"}, 1e-6), "", 5);
   chart.series = {curve};
   const auto mark = [&](double time, const std::string& label) {
     chart.marks.push_back(
-        dot(1e3 * value_at(h, {"axial_strain"}, time), 1e-6 * value_at(h, {"axial_stress"}, time), label));
+        dot(100 * value_at(h, {"axial_strain"}, time), 1e-6 * value_at(h, {"axial_stress"}, time), label));
   };
   mark(m.a1, "A₁");
   mark(m.a2, "A₂");
@@ -190,24 +192,23 @@ FigureContent stress_strain(const StudyResult& study) {
   chart.legend = render::Chart::Legend::none;
   content.panels.push_back({.id = "whole",
                             .caption = count(r->value(quantity::particles)) + " elements in compression.",
-                            .alt = fmt::format("A1 at {} MPa falls to {}; the peak A2 is {} MPa at a strain of {}.",
-                                               number(r->value_or_nan(quantity::a1_stress), 3),
-                                               number(r->value_or_nan(quantity::a1_stress_after), 3),
+                            .alt = fmt::format("A1 at {} MPa falls to {}; the peak A2 is {} MPa at a strain of {} %.",
+                                               number(1e-6 * fall.stress, 3), number(1e-6 * fall.low_stress, 3),
                                                number(r->value_or_nan(quantity::compressive_strength), 3),
-                                               number(r->value(quantity::peak_strain), 3)),
+                                               number(100 * r->value(quantity::peak_strain), 3)),
                             .content = chart});
-  content.panels.push_back({.id = "opening",
-                            .caption = "The first opening of a bond (first) and A₁, enlarged.",
-                            .alt = fmt::format("The first bond opens at {} MPa, most open at {} MPa.",
-                                               number(r->value_or_nan(quantity::first_opening), 3),
-                                               number(r->value_or_nan(quantity::a1_stress), 3)),
-                            .content = opening_chart(*r, curve)});
-  const double first = r->value_or_nan(quantity::first_opening), a1 = r->value_or_nan(quantity::a1_stress);
+  content.panels.push_back(
+      {.id = "opening",
+       .caption = "The first opening of a bond (first) and A₁, enlarged.",
+       .alt = fmt::format("The first bond opens at {} MPa, most open after {} MPa.",
+                          number(r->value_or_nan(quantity::first_opening), 3), number(1e-6 * fall.stress, 3)),
+       .content = opening_chart(*r, curve)});
+  const double first = r->value_or_nan(quantity::first_opening), a1 = 1e-6 * fall.stress;
   content.finding =
       fmt::format("The first bonds open at {} MPa, at the boundary{} the stress drops to {} MPa. ", number(first, 3),
-                  first < a1 ? fmt::format(". Most open at A₁, at {} MPa, and", number(a1, 3))
-                             : ": this is A₁, where most open and",
-                  number(r->value_or_nan(quantity::a1_stress_after), 3));
+                  first < a1 ? fmt::format(". Most open after A₁, at {} MPa, where", number(a1, 3))
+                             : ": this is A₁, from where most open and",
+                  number(1e-6 * fall.low_stress, 3));
   content.finding += fmt::format("The first bonds slide at {} MPa; the strength A₂ is {} MPa, at a strain of {} %.",
                                  number(r->value_or_nan(quantity::first_sliding), 3),
                                  number(r->value_or_nan(quantity::compressive_strength), 3),
@@ -259,7 +260,7 @@ FigureContent energy_compression(const StudyResult& study) {
        .per_row = 1});
   content.finding = fmt::format(
       "After A₂ the elastic energy falls to {} % of its value there, in {} µs from C₁; kinetic energy never exceeds {} "
-      "% of it. "
+      "% of the elastic energy at A₂. "
       "The ledger closes to {} of the work.",
       number(100 * r->value_or_nan(quantity::elastic_left_share), 2), number(1e6 * (m.a3 - m.c1), 3),
       number(100 * r->value_or_nan(quantity::kinetic_share), 2), number(r->value(quantity::energy_residual), 2));
@@ -269,8 +270,8 @@ FigureContent energy_compression(const StudyResult& study) {
 FigureContent energy_tension(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "The block breaks in two at 1.072 × 10⁻² s (B₁): elastic energy becomes breaking heat and kinetic energy, at "
-      "most 16.2 % of the total, which has become viscous heat by B₂.";
+      "The block breaks in two at 1.072 × 10⁻² s (B₁): elastic energy becomes breaking heat and kinetic energy. The "
+      "kinetic energy, at most 16.2 % of the total energy, has become viscous heat by B₂.";
   content.rows = {"failure_time", "kinetic_share"};
   if (auto missing = missing_cases(study, "tension")) content.panels.push_back(*missing);
   std::vector<std::string> said;
@@ -310,13 +311,13 @@ FigureContent energy_tension(const StudyResult& study) {
     content.panels.push_back(
         {.id = planes,
          .caption = fmt::format("Tension, planes: {}. The inset shows the failure.", planes),
-         .alt = fmt::format("The main crack opens at {} s; kinetic energy reaches {} % of the work.",
-                            scientific(m.d1, 3), number(100 * r->value_or_nan(quantity::kinetic_share), 3)),
+         .alt = fmt::format("The main crack opens at {} µs; kinetic energy reaches {} % of the work.",
+                            count(std::round(1e6 * m.d1)), number(100 * r->value_or_nan(quantity::kinetic_share), 3)),
          .content = chart,
          .per_row = 1});
     const bool parts = analysis::pieces_of(*r) > 1;
-    said.push_back(fmt::format("with {} planes {} {} s, with a kinetic share of {} %{}", planes,
-                               parts ? "it breaks at" : "a crack opens at", scientific(m.d1, 3),
+    said.push_back(fmt::format("with {} planes {} {} µs, with a kinetic share of {} %{}", planes,
+                               parts ? "it breaks at" : "a crack opens at", count(std::round(1e6 * m.d1)),
                                number(100 * r->value_or_nan(quantity::kinetic_share), 3),
                                parts ? "" : ", but the block stays in one part"));
   }
@@ -434,7 +435,10 @@ FigureContent ledger(const StudyResult& study) {
       }
       if (s.x.empty()) continue;
       const std::string choice = choice_words(*r, *records.front());
+      const bool several = std::ranges::any_of(
+          records, [&](const dem::Record* other) { return planes_of(*other) != planes_of(*records.front()); });
       const std::string label = std::string(test) +
+                                (several && choice == "as the series" ? ", planes " + planes_of(*r) : "") +
                                 (sizes.size() > 1 ? ", " + count(r->value(quantity::particles)) + " elements" : "") +
                                 (choice == "as the series" ? "" : ", " + choice);
       chart.series.push_back(styled(s, label, colour, render::line_style(colour), 1.2));

@@ -44,7 +44,7 @@ void without_what_hides(Picture& picture, const analysis::Fragments& parts) {
   std::vector<std::size_t> large;
   std::vector<bool> is_large(all.centre.size(), false);
   for (std::size_t i = 0; i < all.centre.size(); ++i) {
-    for (std::size_t rank = 0; rank < std::min(largest, picture.legend.size()); ++rank)
+    for (std::size_t rank = 0; rank < std::min(largest, picture.legend.size() - 1); ++rank)
       is_large[i] = is_large[i] || same(all.colour[i], picture.legend[rank].colour);
     if (is_large[i]) large.push_back(i);
   }
@@ -63,7 +63,9 @@ void without_what_hides(Picture& picture, const analysis::Fragments& parts) {
     kept.radius.push_back(all.radius[i]);
     kept.colour.push_back(all.colour[i]);
   }
-  picture.label += ", without single particles and what hides the four largest parts";
+  picture.legend.pop_back();
+  picture.label += ", without " + count(static_cast<double>(parts.single())) +
+                   " single particles and what hides the four largest parts";
 }
 
 render::Outline box_of(const dem::Record& record) {

@@ -146,9 +146,8 @@ std::string unit_drawing() {
          text(x0 + 60, 136, "bond 1", "start") + text(x0, 258, "bond 2");
     s += tension ? arrow(x0, 60, x0, 18, "#333") + text(x0 + 12, 30, "F_{z}", "start")
                  : arrow(x0, 12, x0, 56, "#333") + text(x0 + 12, 30, "F_{z}", "start");
-    const double in = tension ? 1 : -1;
-    s += arrow(x0 - 112 - 14 * in, 190, x0 - 112 + 14 * in, 190, "#333") +
-         arrow(x0 + 112 + 14 * in, 190, x0 + 112 - 14 * in, 190, "#333");
+    s += arrow(x0 - 126, 190, x0 - 102, 190, "#333") + arrow(x0 + 126, 190, x0 + 102, 190, "#333") +
+         text(x0 - 114, 180, "F_{x}") + text(x0 + 114, 180, "F_{x}");
     s += text(x0, 284, tension ? "tension: bond 1 opens" : "compression: bond 2 opens,");
     s += text(x0, 304, tension ? "at T_{u} (Eqs. 2, 7)" : "then bond 1 slides (Eqs. 8–14)");
   }
@@ -169,8 +168,8 @@ std::string sliding_drawing() {
   s += line(340, 190, 620, 190, "#555", 3) + circle(410, 140, 50, "none", true) + circle(520, 140, 50, "#c9d5de");
   s += circle(410, 140, 3, "#333") + circle(520, 140, 3, "#333") + spring(385, 190, 410, 140, "#d55e00") +
        spring(480, 190, 520, 140, "#d55e00");
-  s += text(410, 128, "O_{1}") + text(520, 128, "O_{2}") + text(385, 212, "P_{1}") + text(480, 212, "P_{2}") +
-       arrow(392, 200, 473, 200, "#d55e00") + arrow(420, 70, 510, 70, "#333");
+  s += text(410, 128, "O_{1}") + text(520, 128, "O_{2}") + text(385, 216, "P_{1}") + text(480, 216, "P_{2}") +
+       arrow(385, 200, 480, 200, "#d55e00") + arrow(410, 70, 520, 70, "#333");
   s += text(465, 62, "dS′") + text(432, 228, "dS");
   s += text(480, 250, "(b) dS = dS′ − (F_{s2} − F_{s1})/K_{s}");
   return s + "</svg>";
@@ -248,7 +247,7 @@ FigureContent parameters(const StudyResult& study) {
   const auto row = [](std::string a, std::string b, std::string c, std::string d) {
     return std::vector<std::string>{std::move(a), std::move(b), std::move(c), std::move(d)};
   };
-  TextTable table{{"Property of the rock", "Value", "Parameter of elements", "Value"}, {}};
+  TextTable table{{"Rock and block", "Value", "Parameter of elements", "Value"}, {}};
   table.rows = {
       row("Young’s modulus E", number(1e-9 * s.real("rock.young_modulus"), 4) + " GPa", "Normal stiffness Kₙ",
           number(1e-6 * r->value(quantity::normal_stiffness), 5) + " × 10⁶ N/m"),

@@ -33,8 +33,10 @@ Panel map_panel(const StudyResult& study, const dem::Record& r, double strain, i
   const auto n = crack_counts(r, strain);
   const std::string label = label_of(r, study);
   return {.id = r.case_id + "_" + part(strain),
-          .caption = fmt::format("{} at {}: {}.", label == "this run" ? "Fractures" : "Fractures, " + label + ",",
-                                 at_strain(r, strain), crack_words(r, strain)),
+          .caption = fmt::format(
+              "{} at {}: {}.",
+              label == "this run" ? (layered(r) ? "Fractures of the layer" : "Fractures") : "Fractures, " + label + ",",
+              at_strain(r, strain), crack_words(r, strain)),
           .alt = fmt::format("Map of {} broken springs over the outlines of grains.", count(sum_of(n))),
           .content = fracture_map(r, strain, render::page_width / per_row),
           .per_row = per_row,
@@ -70,9 +72,9 @@ std::string rose(const std::vector<double>& angles, double reference, std::strin
       c - outside * ux, c + outside * uy, c + outside * ux, c - outside * uy);
   body += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" font-size=\"12.5\" fill=\"#a04000\">{}</text>", c,
                       width + 8, reference_words);
-  body +=
-      fmt::format("<text x=\"{}\" y=\"{:.0f}\" text-anchor=\"end\" font-size=\"12\" fill=\"#444\">circle: {}</text>",
-                  width - 2, 0.16 * width, most);
+  body += fmt::format(
+      "<text x=\"{}\" y=\"{:.0f}\" text-anchor=\"end\" font-size=\"12\" fill=\"#444\">outer circle: {} springs</text>",
+      width - 2, 0.16 * width, most);
   return fmt::format(
              "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
              "font-family=\"DejaVu Sans\">",
@@ -187,10 +189,10 @@ FigureContent fracture_maps(const StudyResult& study) {
   const std::string test = r->text("test");
   content.expected = true;
   content.statement =
-      test == "pure_shear" ? "Boundaries are half as strong as grains: under pure shear fractures run mainly along "
-                             "them, parallel to the compression."
-      : test == "growth" ? "Fractures open radially around grains that increase in volume and link neighbouring grains."
-      : test == "extension" ? "The stiff layer breaks by tension fractures through its whole thickness."
+      test == "pure_shear"  ? "Boundaries are half as strong as grains: under pure shear fractures run mainly along "
+                              "them, parallel to the compression."
+      : test == "growth"    ? "Fractures open radially around grains that increase in volume."
+      : test == "extension" ? "The stiff layer breaks by tension fractures that cross it."
                             : "Springs break only in tension, so that fractures open parallel to the compression.";
   std::vector<std::pair<const dem::Record*, double>> maps;
   for (const double strain : strains_of(*r)) maps.emplace_back(r, strain);
@@ -225,9 +227,10 @@ FigureContent fracture_maps(const StudyResult& study) {
   if (test == "extension" && r->has(quantity::crossing_fractures)) {
     const double through = r->value(quantity::crossing_fractures);
     content.agreement = through > 0 ? Agreement::agrees : Agreement::undecided;
-    content.finding += fmt::format("; {} through the layer.", through == 0   ? "no fracture runs"
-                                                              : through == 1 ? "one fracture runs"
-                                                                             : count(through) + " fractures run");
+    content.finding += fmt::format("; {} the layer, over four fifths of its rows or more.",
+                                   through == 0   ? "no fracture crosses"
+                                   : through == 1 ? "one fracture crosses"
+                                                  : count(through) + " fractures cross");
     return content;
   }
   content.finding += ".";
@@ -235,10 +238,11 @@ FigureContent fracture_maps(const StudyResult& study) {
     if (!r->has(share)) return;
     const Judged judged = judge_share(r->value(share), third, what);
     content.agreement = judged.agreement;
-    if (!judged.why.empty()) content.finding += " " + judged.why + ".";
+    content.finding += " " + (judged.why.empty() ? percent(r->value(share), 0) + " " + what : judged.why) + ".";
   };
-  if (test == "growth") along(quantity::radial_share, "of the trends lie along the radius");
-  if (test == "compression") along(quantity::along_compression_share, "of the trends lie along the compression");
+  if (test == "growth") along(quantity::radial_share, "of the trends lie within 30° of the radius");
+  if (test == "compression")
+    along(quantity::along_compression_share, "of the trends lie within 30° of the compression");
   return content;
 }
 
@@ -340,8 +344,8 @@ FigureContent spacing(const StudyResult& study) {
   }
   content.expected = true;
   content.statement =
-      "The spacing of fractures through a stiff layer falls with strain until it saturates at about the thickness of "
-      "the layer (Bai et al. 2000).";
+      "After Bai et al. 2000, the spacing of fractures through a stiff layer falls with strain until it saturates at "
+      "about the thickness of the layer.";
   const dem::Table& h = r->table("history");
   const double last = r->value_or_nan(quantity::crossing_fractures);
   const auto panel = [&](const char* id, const char* column, const char* title, const std::string& caption) {

@@ -183,7 +183,6 @@ FigureContent flow(const StudyResult& study) {
   content.statement =
       "After a deformation step the sheet relaxes to equilibrium; while a spring exceeds its tensile strength, the one "
       "most likely to break does, and the sheet relaxes again; then the next step begins.";
-  content.rows = {"sheet_breaks_per_relaxation"};
   const dem::Record* r = main_record(study);
   const bool growth = r && r->text("test") == "growth";
   std::string body;
@@ -204,7 +203,7 @@ FigureContent flow(const StudyResult& study) {
   };
   box_at(170, 4, 260, "Grain map and sheet", "stiffness and strength drawn", "#eef2f6");
   box_at(170, 70, 260, growth ? "Grow the marked grains" : "Move walls and particles",
-         growth ? "by one step, walls held" : "affinely, by one step", "#fbf3dd");
+         growth ? "by a step or part of one, walls held" : "affinely, by a step or part of one", "#fbf3dd");
   box_at(170, 136, 260, "Relax to equilibrium", "springs and contacts", "#e4efe6");
   box_at(170, 202, 260, "A spring over its strength?", "largest tension over threshold", "#eef2f6");
   box_at(490, 169, 190, "Break that one spring", "keep its contact", "#f6dfd5");
@@ -234,10 +233,11 @@ FigureContent flow(const StudyResult& study) {
        .per_row = 1,
        .whole_width = true});
   if (r) {
-    content.finding =
-        fmt::format("This run: {} load steps, {} relaxations, {} broken springs.",
-                    count(r->value(quantity::load_steps)), count(r->value(quantity::relaxations)),
-                    count(r->value(quantity::cracks_intra_tension) + r->value(quantity::cracks_inter_tension)));
+    content.finding = fmt::format(
+        "This run: {} load steps; {} relaxations, one after each part of a load step and each break; {} broken "
+        "springs.",
+        count(r->value(quantity::load_steps)), count(r->value(quantity::relaxations)),
+        count(r->value(quantity::cracks_intra_tension) + r->value(quantity::cracks_inter_tension)));
   }
   return content;
 }
@@ -263,11 +263,12 @@ FigureContent elle_layer(const StudyResult& study) {
   const int row = std::clamp(static_cast<int>(cy / l.height * l.rows) - m / 2, 0, l.rows - m) / 2 * 2;
   Drawing d = draw_window(*r, {c, c + n, row, row + m}, render::column_width, true,
                           [&](std::size_t i) { return grain_fill(static_cast<std::size_t>(p.grain[i])); });
-  content.panels.push_back({.id = "",
-                            .caption = "Outlines of grains (nodes and segments) over the particles that they hold.",
-                            .alt = "Polygon edges with nodes cross a patch of discs that are coloured by grain.",
-                            .content = d.finish_with_key({{"#c03020", "outlines of grains, with their nodes", true}}),
-                            .per_row = 2});
+  content.panels.push_back(
+      {.id = "",
+       .caption = "Part of the sheet: outlines of grains (nodes and segments) over the particles that they hold.",
+       .alt = "Polygon edges with nodes cross a patch of discs that are coloured by grain.",
+       .content = d.finish_with_key({{"#c03020", "outlines of grains, with their nodes", true}}),
+       .per_row = 2});
   const double grains = r->value(quantity::grains);
   const std::string holders =
       uniform_layer(*r) ? "The layer and the matrix on both sides of it"

@@ -188,19 +188,23 @@ std::vector<std::vector<std::array<double, 2>>> outlines_of(const dem::Record& r
 
 bool layered(const dem::Record& record) { return record.table("history").has("crossing_fractures"); }
 
+std::array<double, 2> heights_shown(const dem::Record& record) {
+  const Layout l = layout_of(record);
+  if (!layered(record)) return {0, l.height};
+  const auto outlines = outlines_of(record);
+  double low = l.height, high = 0;
+  for (std::size_t g = 0; g < outlines.size(); ++g) {
+    if (!marked(record, g)) continue;
+    for (const auto& p : outlines[g]) low = std::min(low, p[1]), high = std::max(high, p[1]);
+  }
+  const double thickness = high - low;
+  return {std::max(0.0, low - thickness), std::min(l.height, high + thickness)};
+}
+
 std::string fracture_map(const dem::Record& record, double strain, double width) {
   const Layout l = layout_of(record);
   const auto outlines = outlines_of(record);
-  double low = 0, high = l.height;
-  if (layered(record)) {  // the layer and as much matrix on either side: fractures are too small in the whole box
-    low = l.height, high = 0;
-    for (std::size_t g = 0; g < outlines.size(); ++g) {
-      if (!marked(record, g)) continue;
-      for (const auto& p : outlines[g]) low = std::min(low, p[1]), high = std::max(high, p[1]);
-    }
-    const double thickness = high - low;
-    low = std::max(0.0, low - thickness), high = std::min(l.height, high + thickness);
-  }
+  const auto [low, high] = heights_shown(record);
   Drawing d(0, low, 1 + l.radius, high, width);
   for (std::size_t g = 0; g < outlines.size(); ++g) {
     const std::string_view fill = marked(record, g) ? marked_fill : std::string_view("#ffffff");

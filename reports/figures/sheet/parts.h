@@ -67,6 +67,8 @@ std::vector<std::vector<std::array<double, 2>>> outlines_of(const dem::Record& r
 /// True for a layer in a matrix.
 bool layered(const dem::Record& record);
 
+/// The part of the sheet that maps show: the layer and as much matrix on either side, where there is one; else all of it.
+std::array<double, 2> heights_shown(const dem::Record& record);
 /// Cracks up to a strain over the grain outlines, by colour where they lie.
 std::string fracture_map(const dem::Record& record, double strain, double width);
 /// "13 broken springs inside grains, 2 at boundaries" up to a strain, in the words of the sheet's own map.

@@ -147,7 +147,9 @@ Panel field_panel(const dem::Record& r, const std::string& table, double strain,
   const auto value = t.real(field.column), move = t.real("displacement");
   render::Spheres spheres;
   spheres.cut_edges = false;
+  const auto [bottom, top] = heights_shown(r);
   for (std::size_t i = 0; i < value.size(); ++i) {
+    if (place[2 * i + 1] < bottom || place[2 * i + 1] > top) continue;
     spheres.centre.push_back({place[2 * i] + move[2 * i], place[2 * i + 1] + move[2 * i + 1], 0});
     spheres.radius.push_back(1.16 * l.radius);  // wide enough to leave no gap between three
     spheres.colour.push_back(colour_of(field, (value[i] - field.low) / (field.high - field.low)));
@@ -157,8 +159,9 @@ Panel field_panel(const dem::Record& r, const std::string& table, double strain,
   p.scene.cuts.push_back({{0, 0, 0}, {0, 0, 1}});  // discs in flat colours: a value, not a shape
   p.scene.camera.direction = {0, 0, -1};
   p.scene.camera.up = {0, 1, 0};
-  p.scene.width = 900;
-  p.scene.height = 900;
+  const bool strip = layered(r);
+  p.scene.width = strip ? 1400 : 900;
+  p.scene.height = strip ? static_cast<int>(std::lround(1400 * (top - bottom + 0.02))) : 900;
   p.scene.axes = true;
   p.scale_bar = false;
   p.label = field.words + " at " + at_strain(r, strain);
@@ -168,11 +171,12 @@ Panel field_panel(const dem::Record& r, const std::string& table, double strain,
   const auto range = std::minmax_element(value.begin(), value.end());
   return {
       .id = field.column + fmt::format("_{}", table.substr(table.size() - 4)),
-      .caption = fmt::format("{}{}; the colours span all but the most extreme 1 % of the values.", field.words,
-                             field.has_sign ? ", tension positive" : ""),
+      .caption = fmt::format("{}{}{}; the colours span all but the most extreme 1 % of the values.", field.words,
+                             strip ? " in the layer and beside it" : "", field.has_sign ? ", tension positive" : ""),
       .alt = fmt::format("Values go from {} to {} in units of k.", number(*range.first, 2), number(*range.second, 2)),
       .content = p,
-      .per_row = 2};
+      .per_row = strip ? 1 : 2,
+      .whole_width = strip};
 }
 
 // Whether springs break later and tension falls more in one step the narrower their strengths are distributed; why it cannot
@@ -207,11 +211,11 @@ FigureContent stress_strain(const StudyResult& study) {
   if (!main) return content;
   content.expected = true;
   content.statement = main->text("test") == "pure_shear"
-                          ? "A sheet with a narrow distribution of strengths fails abruptly; one with a wide "
-                            "distribution cracks early and fails gradually."
+                          ? "The wider the distribution of strengths, the earlier the first spring breaks, and "
+                            "the smaller the largest fall of the wall tension in one load step."
                           : "";
   const Reach reach = reach_of(study);
-  std::vector<std::string> first, worst, falls, unbroken, rising;
+  std::vector<std::string> first, worst, falls, unbroken, rising, lasting;
   for (const dem::Record* r : records_of(study)) {
     const std::string label = label_of(*r, study);
     content.panels.push_back(
@@ -231,7 +235,14 @@ FigureContent stress_strain(const StudyResult& study) {
          .content = breaks_chart(*r, reach),
          .per_row = 2});
     const std::string where = label == "this run" ? "" : " (" + label + ")";
-    if (!analysis::passed_peak(*r)) rising.push_back(label);
+    if (!analysis::passed_peak(*r)) {
+      const double at = r->value(quantity::strain_at_peak), end = r->value(quantity::final_strain);
+      if (at < end * (1 - 1e-9)) {
+        lasting.push_back(at_strain(*r, at) + where);
+      } else {
+        rising.push_back(label);
+      }
+    }
     if (!r->has(quantity::onset_strain)) {
       unbroken.push_back(label);
       continue;
@@ -250,12 +261,19 @@ FigureContent stress_strain(const StudyResult& study) {
   if (!falls.empty())
     said.push_back("The largest fall of the wall tension in one load step is " + listed(falls) +
                    " of its largest value.");
-  if (!rising.empty()) {
+  if (main->text("test") == "growth") {
+    const dem::Table& h = main->table("history");
+    said.push_back("At the end the mean of both wall stresses is " +
+                   number(0.5 * (h.real("stress_xx").back() + h.real("stress_yy").back()), 3) + " k.");
+  } else if (!rising.empty()) {
     said.push_back(rising.front() == "this run" ? "The differential stress passes no peak by the end of the run."
                    : rising.size() == records_of(study).size()
                        ? std::string("In no run does the differential stress pass a peak.")
                        : "The differential stress passes no peak by the end of the run: " + listed(rising) + ".");
   }
+  if (!lasting.empty())
+    said.push_back("The differential stress is largest at " + listed(lasting) +
+                   ", and has not fallen by a quarter by the end.");
   if (!unbroken.empty())
     said.push_back("No spring broke" + (unbroken.front() == "this run" ? "" : ": " + listed(unbroken)) + ".");
   content.finding = joined(said, " ");
@@ -416,9 +434,9 @@ FigureContent solvers(const StudyResult& study) {
       "The historical sweep stops when no particle moves by more than 1.4 × 10⁻⁷ of the box in a sweep; the converged "
       "solver stops at force equilibrium. {}; {} of the springs that break with the converged solver also break with "
       "the historical one.",
-      same == 0   ? "The very first break differs"
-      : same == 1 ? "Only the first break is the same"
-                  : fmt::format("The first {} breaks are the same", count(static_cast<double>(same))),
+      same == 0   ? "The order of the breaks differs from the first on"
+      : same == 1 ? "The order of the breaks agrees only for the first"
+                  : fmt::format("The order of the breaks agrees for the first {}", count(static_cast<double>(same))),
       percent(both, 0));
   return content;
 }
