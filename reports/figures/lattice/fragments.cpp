@@ -7,6 +7,7 @@
 #include "reports/figures/fragments.h"
 #include "reports/figures/lattice/parts.h"
 #include "reports/figures/table.h"
+#include "reports/text.h"
 
 namespace reports::lattice {
 namespace {
