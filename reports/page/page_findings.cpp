@@ -142,7 +142,7 @@ std::string headline(const StudyResult& study) {
   }
   if (tests.empty()) return {};
   const bool in_k = std::ranges::any_of(tests, [](const std::string& one) {
-    return one.ends_with(" k") || one.find(" k (") != std::string::npos || one.find(" k and ") != std::string::npos;
+    return one.ends_with(" k") || one.find(" k ") != std::string::npos || one.find(" k,") != std::string::npos;
   });
   return joined(tests, "; ") + "." + (in_k ? " The unit k is the elastic constant of a spring." : "");
 }
