@@ -30,12 +30,21 @@ std::string specimen_words(const StudyResult& study, const CaseResult& result) {
   const std::string width = particles->attribute("diameter"), height = particles->attribute("height");
   if (width.empty() || height.empty()) return {};
   const auto mm = [](double metres) { return fmt::format("{:g} mm", 1e3 * metres); };
+  const auto thickness = [&](const char* key, double otherwise) {
+    const double set = study.scenario->real(key);
+    return mm(set > 0 ? set : otherwise);
+  };
   if (result.test() == test_brazilian) {
-    const double thickness = study.scenario->real("brazilian.thickness");
-    return "disc of " + mm(std::stod(height)) + " × " + mm(thickness > 0 ? thickness : std::stod(height) / 2);
+    return "disc of " + mm(std::stod(height)) + " × " + thickness("brazilian.thickness", std::stod(height) / 2);
   }
-  if (result.test() == test_bending) return "bar of " + mm(std::stod(width)) + " × " + mm(std::stod(height));
-  if (result.test() == test_half_disc) return "half disc of " + mm(std::stod(width));
+  if (result.test() == test_bending) {
+    return "bar of " + mm(std::stod(width)) + " × " + mm(std::stod(height)) + " × " +
+           thickness("bending.width", 0.6 * std::stod(height));
+  }
+  if (result.test() == test_half_disc) {
+    return "half disc of " + mm(std::stod(width)) + " × " +
+           thickness("semicircular_bending.thickness", 0.4 * std::stod(width));
+  }
   if (result.test() == test_shear) return "block of " + mm(std::stod(height));
   return "cylinder of " + mm(std::stod(width)) + " × " + mm(std::stod(height));
 }

@@ -63,25 +63,26 @@ inline constexpr Quantity element_mass{.id = "element_mass",
                                        .digits = 4,
                                        .kind = QuantityKind::diagnostic,
                                        .meaning = "From the density of the whole packing (Eq. 27)."};
-inline constexpr Quantity opening_stress_theory{.id = "opening_stress_theory",
-                                                .name = "Stress at which bonds should open",
-                                                .symbol = "C_open",
-                                                .unit = "MPa",
-                                                .digits = 4,
-                                                .kind = QuantityKind::diagnostic,
-                                                .meaning = "By theory, from Eq. 8."};
+inline constexpr Quantity opening_stress_theory{
+    .id = "opening_stress_theory",
+    .name = "First opening in compression, by theory",
+    .symbol = "C_open",
+    .unit = "MPa",
+    .digits = 4,
+    .kind = QuantityKind::diagnostic,
+    .meaning = "Stress at which the first bonds of a compressed block should open (Eq. 8)."};
 inline constexpr Quantity young_modulus =
     measured(dem::quantity::young_modulus, "elastic", "Stress over strain at the smallest of the strains.");
 inline constexpr Quantity poisson_ratio =
     measured(dem::quantity::poisson_ratio, "elastic",
              "Mean of the two lateral strains over the axial one at the smallest of the strains.");
 inline constexpr Quantity young_modulus_error{.id = "young_modulus_error",
-                                              .name = "Error of Young’s modulus",
+                                              .name = "Mean error of Young’s modulus over the strains",
                                               .unit = "%",
                                               .tests = "elastic",
                                               .meaning = "Mean over the strains of |E / E of the rock - 1|."};
 inline constexpr Quantity poisson_ratio_error{.id = "poisson_ratio_error",
-                                              .name = "Error of Poisson’s ratio",
+                                              .name = "Mean error of Poisson’s ratio over the strains",
                                               .unit = "%",
                                               .tests = "elastic",
                                               .meaning = "Mean over the strains of |ν / ν of the rock - 1|."};
@@ -146,14 +147,15 @@ inline constexpr Quantity kinetic_share{.id = "kinetic_share",
                                         .meaning =
                                             "In tension after D₁, over the work at that time; in compression after the "
                                             "peak, over the elastic energy of the peak."};
-inline constexpr Quantity frictional_share_at_parting{.id = "frictional_share_at_parting",
-                                                      .name = "Frictional heat when the main crack has opened",
-                                                      .shown = "%",
-                                                      .factor = 100,
-                                                      .tests = "tension",
-                                                      .meaning = "Over the work at that time."};
+inline constexpr Quantity frictional_share_at_parting{
+    .id = "frictional_share_at_parting",
+    .name = "Frictional heat over work when the main crack has opened",
+    .shown = "%",
+    .factor = 100,
+    .tests = "tension",
+    .meaning = "Over the work at that time."};
 inline constexpr Quantity frictional_share{.id = "frictional_share",
-                                           .name = "Frictional heat at the end",
+                                           .name = "Frictional heat over work at the end",
                                            .shown = "%",
                                            .factor = 100,
                                            .tests = "tension",
@@ -216,20 +218,21 @@ inline constexpr Quantity sliding_duration{
     .factor = 1e4,
     .tests = "compression",
     .meaning = "Until 99 of 100 of the bonds that slide from the peak on have slid."};
-inline constexpr Quantity normal_share_of_sliding_heat{.id = "normal_share_of_sliding_heat",
-                                                       .name = "Breaking heat of normal springs from C₁ to C₂",
-                                                       .shown = "%",
-                                                       .factor = 100,
-                                                       .tests = "compression",
-                                                       .meaning = "Over all breaking heat of that time."};
+inline constexpr Quantity normal_share_of_sliding_heat{
+    .id = "normal_share_of_sliding_heat",
+    .name = "Share of normal springs in the breaking heat from C₁ to C₂",
+    .shown = "%",
+    .factor = 100,
+    .tests = "compression",
+    .meaning = "Over all breaking heat of that time."};
 inline constexpr Quantity frictional_share_after_sliding{.id = "frictional_share_after_sliding",
-                                                         .name = "Frictional heat after C₂",
+                                                         .name = "Share of the frictional heat after C₂",
                                                          .shown = "%",
                                                          .factor = 100,
                                                          .tests = "compression",
                                                          .meaning = "Over all frictional heat."};
 inline constexpr Quantity elastic_left_share{.id = "elastic_left_share",
-                                             .name = "Least elastic energy after the peak",
+                                             .name = "Least elastic energy after the peak over that at the peak",
                                              .shown = "%",
                                              .factor = 100,
                                              .tests = "compression",
@@ -242,7 +245,7 @@ inline constexpr Quantity viscous_share_of_heat{
     .tests = strength,
     .meaning = "Of all heat in tension; of the heat after C₁ in compression."};
 inline constexpr Quantity viscous_share_after_parting{.id = "viscous_share_after_parting",
-                                                      .name = "Viscous heat after D₂",
+                                                      .name = "Share of the viscous heat after D₂",
                                                       .shown = "%",
                                                       .factor = 100,
                                                       .tests = "tension",

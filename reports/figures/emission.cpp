@@ -130,7 +130,7 @@ render::Chart rate_chart(const std::vector<Emission>& all) {
     if (!series.x.empty()) chart.series.push_back(series);
   }
   chart.left.low = std::pow(10, std::floor(std::log10(low)));
-  chart.left.high = std::pow(10, std::max(2.0, std::ceil(std::log10(1.3 * high))));  // no marker on the frame
+  chart.left.high = std::pow(10, std::max(2.0, std::ceil(std::log10(high))));
   chart.legend = render::Chart::Legend::below;
   return chart;
 }

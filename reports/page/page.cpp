@@ -59,8 +59,18 @@ bool is_varied(const StudyResult& study, const std::string& parameter) {
          });
 }
 
-/// Without those about the paper's rock, where another one is studied, and those about a test, a pressure, a key's value
-/// (`when`; `unless`: about all others) or a varied parameter that the study does not have.
+/// Whether a case has a specimen of one mineral alone, joined by flat joints throughout, or one with grains.
+bool has_specimen(const StudyResult& study, bool of_one_mineral) {
+  return std::ranges::any_of(study.cases, [&](const CaseResult& one) {
+    const auto* mineral = dem::find_value(one.parameters, "mineral");
+    const auto* name = mineral ? std::get_if<std::string>(mineral) : nullptr;
+    return (name && !name->empty()) == of_one_mineral;
+  });
+}
+
+/// Without those about the paper's rock, where another one is studied, and those about a test, a pressure, a kind of specimen
+/// ("grains", "one mineral"), a key's value (`when`; `unless`: about all others) or a varied parameter that the study does
+/// not have.
 Json about(const StudyResult& study, const Json& entries) {
   Json kept = Json::array();
   for (Json one : entries) {
@@ -75,6 +85,9 @@ Json about(const StudyResult& study, const Json& entries) {
     one.erase("test");
     if (one.value("confined", false) && !is_confined(study)) continue;
     one.erase("confined");
+    const std::string specimen = one.value("specimen", "");
+    if (!specimen.empty() && !has_specimen(study, specimen == "one mineral")) continue;
+    one.erase("specimen");
     const auto is_so = [&](const auto& key) {
       const Json& wanted_value = key.value();
       return wanted_value.is_number() ? study.scenario->real(key.key()) == wanted_value.template get<double>()

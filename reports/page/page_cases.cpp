@@ -58,6 +58,27 @@ bool varies(const StudyResult& study, std::string_view parameter) {
   return values.size() > 1;
 }
 
+/// Whether it tells anything of a case: not where it is nothing in all cases of the test ("σ₃ 0 MPa" of a tension).
+bool is_told(const StudyResult& study, const CaseResult& result, std::string_view parameter) {
+  if (!varies(study, parameter)) return false;
+  return std::ranges::any_of(study.cases, [&](const CaseResult& one) {
+    const auto* value = one.test() == result.test() ? dem::find_value(one.parameters, parameter) : nullptr;
+    const auto* amount = value ? std::get_if<double>(value) : nullptr;
+    return value && (!amount || *amount != 0);
+  });
+}
+
+/// "5 700", or "5 700–5 712" of several seeds.
+std::string size_text(const Repeats& repeats, const dem::Quantity& size) {
+  std::vector<double> values;
+  for (const CaseResult* one : repeats) {
+    if (one->record && one->record->has(size)) values.push_back(one->record->value(size));
+  }
+  if (values.empty()) return "–";
+  const auto [least, most] = std::ranges::minmax(values);
+  return least == most ? count(least) : count(least) + "–" + count(most);
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::vector<const CaseResult*>>> by_test(const StudyResult& study) {
@@ -95,7 +116,7 @@ std::string joined_notes(const std::vector<std::string>& notes) {
   return joined(said, " ");
 }
 
-std::string case_label(const StudyResult& study, const CaseResult& result) {
+std::string case_label(const StudyResult& study, const CaseResult& result, bool with_seed) {
   const dem::Parameters& first = study.cases.front().parameters;
   std::vector<std::string> parts;
   std::string aspect;  // what stands for a case that nothing sets apart
@@ -105,7 +126,9 @@ std::string case_label(const StudyResult& study, const CaseResult& result) {
     const auto* usual = dem::find_value(first, id);
     const std::string part = parameter_words(parameter, value);
     if (parameter.axis && aspect.empty()) aspect = part;
-    const bool told = parameter.axis ? varies(study, id) : parameter.symbol.empty() || !usual || *usual != value;
+    const bool told = with_seed && id == "seed" ? varies(study, id)
+                      : parameter.axis          ? is_told(study, result, id)
+                                                : parameter.symbol.empty() || !usual || *usual != value;
     if (told && !part.empty()) parts.push_back(part);
   }
   if (parts.empty() && !aspect.empty()) parts.push_back(aspect);
@@ -150,19 +173,22 @@ PageData cases_data(const StudyResult& study) {
       const dem::Record& record = *result.record;
       std::vector<std::string> parameters;
       for (const auto& [id, value] : result.parameters) {
-        const bool said = id == "test" || !varies(study, id) || (id == "seed" && repeats.size() > 1);
+        const bool said = id == "test" || !is_told(study, result, id) || (id == "seed" && repeats.size() > 1);
         const std::string part =
             said ? ""
                  : parameter_words(dem::find_parameter(study.parameters, id), whole_factor(*study.scenario, id, value));
         if (!part.empty()) parameters.push_back(part);
       }
-      if (parameters.empty()) {  // nothing sets the cases apart: what all have alike
+      if (parameters.empty()) {  // nothing sets the cases apart: the first that results are plotted against, else all
         for (const auto& [id, value] : result.parameters) {
           if (id == "test" || id == "seed") continue;
           const dem::Parameter& parameter = dem::find_parameter(study.parameters, id);
           const std::string part =
               parameter.symbol.empty() ? "" : parameter_words(parameter, whole_factor(*study.scenario, id, value));
-          if (!part.empty()) parameters.push_back(part);
+          if (part.empty()) continue;
+          if (parameter.axis) parameters.clear();
+          parameters.push_back(part);
+          if (parameter.axis) break;
         }
       }
       if (repeats.size() > 1) {
@@ -173,10 +199,10 @@ PageData cases_data(const StudyResult& study) {
         parameters.push_back("seeds " + listed(seeds));
       }
       row.set("test", words(result.test()));
-      row.set("parameters", joined(parameters, ", "));
+      row.set("parameters", parameters.empty() ? "–" : joined(parameters, ", "));
       using namespace dem::quantity;
       for (const dem::Quantity& size : {particles, contacts, grains, steps}) {
-        row.set(std::string(size.id), record.has(size) ? count(record.value(size)) : "–");
+        row.set(std::string(size.id), size_text(repeats, size));
       }
       row.set("seed", std::to_string(record.seed));
     } else {

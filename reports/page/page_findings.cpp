@@ -140,11 +140,7 @@ std::string headline(const StudyResult& study) {
                     (seeds > 1 ? fmt::format(", {} of {} seeds: ", each ? "means" : "mean", seeds) : ": ") +
                     listed(said));
   }
-  if (tests.empty()) return {};
-  const bool in_k = std::ranges::any_of(tests, [](const std::string& one) {
-    return one.ends_with(" k") || one.find(" k ") != std::string::npos || one.find(" k,") != std::string::npos;
-  });
-  return joined(tests, "; ") + "." + (in_k ? " The unit k is the elastic constant of a spring." : "");
+  return tests.empty() ? "" : joined(tests, "; ") + ".";
 }
 
 // Which figures agree with what is published, which are as one expects, and which are neither.

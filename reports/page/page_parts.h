@@ -32,6 +32,6 @@ PageData notes_data(const StudyResult& study);
 
 /// "AR 2", "AR 1, seed scale 0.675": the aspect ratio and what else sets a case apart from the first one of the study; the
 /// id when there is neither, or no record.
-std::string case_label(const StudyResult& study, const CaseResult& result);
+std::string case_label(const StudyResult& study, const CaseResult& result, bool with_seed = false);
 
 }  // namespace reports

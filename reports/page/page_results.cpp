@@ -80,7 +80,7 @@ PageData ledger_table(const StudyResult& study, std::span<const CaseResult* cons
   const bool bare = analysis::in_elastic_constants(kept.front()->record->table("history"));
   const auto [factor, unit] = bare ? std::pair<double, std::string>{1e6, "10⁻⁶ k box²"} : energy_unit(largest);
   std::vector<std::string> heads;
-  for (const CaseResult* result : kept) heads.push_back(case_label(study, *result));
+  for (const CaseResult* result : kept) heads.push_back(case_label(study, *result, true));
   const std::string key = shorten_heads(heads, from);
   PageData rows = new_list();
   const auto add = [&rows](const std::string& label, const std::vector<std::string>& values, bool strong) {

@@ -249,7 +249,7 @@ TEST_CASE("figures show what the paper states beside ours, and nothing for anoth
   };
   CHECK_FALSE(has(labels(confinement_envelopes(study)), "published"));
   CHECK_FALSE(has(labels(progressive_failure(study)), "published"));
-  CHECK(curves() == 2);  // points and our fit
+  CHECK(curves() == 3);  // points, our fit, and the key of fits
 
   study.published = reports::published_numbers(study, std::filesystem::path(DEM_SOURCE_DIR) / "assets/papers");
   CHECK(has(labels(confinement_envelopes(study)), "published fits"));
@@ -260,7 +260,7 @@ TEST_CASE("figures show what the paper states beside ours, and nothing for anoth
   for (const auto& row : table.rows) published.push_back(row[2]);
   CHECK(joined(published).starts_with("29 206 29 16 0.6 71.1 1.1 "));
   CHECK(has(labels(progressive_failure(study)), "published σ_{ci} and σ_{cd} published peak"));
-  CHECK(curves() == 3);
+  CHECK(curves() == 5);
   const auto mineral = std::get<reports::TextTable>(reports::texture::mineral_properties(study).panels.front().content);
   REQUIRE(mineral.rows.size() == 1);
   CHECK(has(mineral.rows[0][3], " / 418"));

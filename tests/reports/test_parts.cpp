@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <tuple>
 
 #include "engine/analysis/ending.h"
 #include "engine/analysis/ledger.h"
@@ -346,6 +347,33 @@ TEST_CASE("cases are told apart by what sets them apart") {
   CHECK(reports::case_label(study, study.cases[0]) == "AR 1");
   CHECK(reports::case_label(study, study.cases[1]) == "seed scale 0.675");
   CHECK(reports::case_label(study, study.cases[2]) == "C d");
+}
+
+TEST_CASE("a case is told by what varies in its test, and by its seed where each seed has a column") {
+  const test::Scratch scratch;
+  const dem::Scenario scenario = synthetic::scenario(scratch.path());
+  std::vector<dem::Record> records;
+  for (const auto& [test, pressure, seed] :
+       {std::tuple{"compression", 0.0, 1.0}, std::tuple{"compression", 10.0, 1.0},
+        std::tuple{"direct_tension", 0.0, 1.0}, std::tuple{"direct_tension", 0.0, 2.0}}) {
+    dem::Record& record = records.emplace_back();
+    record.model = "grain_texture";
+    record.case_id = std::string(test) + reports::shortest(pressure) + reports::shortest(seed);
+    record.seed = static_cast<std::uint64_t>(seed);
+    record.parameters = {{"test", test}, {"aspect_ratio", 1.0}, {"confining_pressure", pressure}, {"seed", seed}};
+    record.results = {{"particles", 600 + seed}};
+  }
+  const reports::StudyResult study = synthetic::study_of(scenario, records);
+  CHECK(reports::case_label(study, study.cases[1]) == "σ₃ 10 MPa");
+  CHECK(reports::case_label(study, study.cases[2]) == "AR 1");
+  CHECK(reports::case_label(study, study.cases[2], true) == "seed 1");
+  CHECK(reports::case_label(study, study.cases[3], true) == "seed 2");
+  const std::string rows =
+      kainjow::mustache::mustache("{{#c}}{{test}}: {{{parameters}}}, {{{particles}}} particles. {{/c}}")
+          .render(kainjow::mustache::data("c", reports::cases_data(study)));
+  CHECK(rows ==
+        "compression: σ₃ 0 MPa, seed 1, 601 particles. compression: σ₃ 10 MPa, seed 1, 601 particles. "
+        "direct tension: AR 1, seeds 1 and 2, 601–602 particles. ");
 }
 
 TEST_CASE("a series that fills a row begins one after another such series") {

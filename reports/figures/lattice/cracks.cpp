@@ -277,8 +277,7 @@ FigureContent crack_front(const StudyResult& study) {
     f.points.marker = render::Marker::circle;
     f.reach = styled(f.reach, "farthest so far", 5);
     chart.series = {f.points, f.reach};
-    if (!f.line.x.empty())
-      chart.series.push_back(styled(f.line, "fitted " + speed_text(f.speed), 3, render::Line::solid, 2.6));
+    if (!f.line.x.empty()) chart.series.push_back(styled(f.line, speed_text(f.speed), 0, render::Line::dash));
     const double speed = study.published_value("crack_speed");  // m/s
     const double last = f.points.x.empty() ? 0 : std::ranges::max(f.points.x);
     if (std::isfinite(speed) && last > 0) {
@@ -293,7 +292,7 @@ FigureContent crack_front(const StudyResult& study) {
     chart.height = 240;
     content.panels.push_back({.id = planes,
                               .caption = fmt::format("Planes: {}. Distance across the load between each opened bond "
-                                                     "and the nearest of the first; the line is "
+                                                     "and the nearest of the first; the dashed line is "
                                                      "fitted to the farthest so far from 10 to 90 % of its way.",
                                                      planes),
                               .alt = fmt::format("The farthest opening runs at {}.",

@@ -57,6 +57,14 @@ MeanError mean_error(const std::vector<const dem::Record*>& records) {
   return m;
 }
 
+// "5 strains from −10⁻⁶ to −10⁻³": those that were run.
+std::string strains_words(const dem::Record& record) {
+  const auto strains = record.table("elastic").real("axial_strain");
+  const auto at = [](double strain) { return "−" + scientific(std::abs(strain), 1); };
+  if (strains.size() == 1) return "one strain of " + at(strains.front());
+  return fmt::format("{} strains from {} to {}", strains.size(), at(strains.front()), at(strains.back()));
+}
+
 }  // namespace
 
 FigureContent elastic_constants(const StudyResult& study) {
@@ -90,9 +98,10 @@ FigureContent elastic_constants(const StudyResult& study) {
        .per_row = 1});
   const MeanError error = mean_error(records);
   if (error.n > 0) {
-    content.finding = fmt::format(
-        "Over {} of more than one unit and all strains, the mean error of E is {} % and that of ν {} %.",
-        error.n == 1 ? "one block" : fmt::format("{} blocks", error.n), number(error.e, 2), number(error.nu, 2));
+    content.finding =
+        fmt::format("Over {} of more than one unit and {}, the mean error of E is {} % and that of ν {} %.",
+                    error.n == 1 ? "one block" : fmt::format("{} blocks", error.n), strains_words(large),
+                    number(error.e, 2), number(error.nu, 2));
   }
   if (small.value(quantity::particles) == 4) {
     content.finding +=
@@ -114,7 +123,7 @@ FigureContent elastic_choices(const StudyResult& study) {
   const double e = 1e-9 * s.real("rock.young_modulus"), nu = s.real("rock.poisson_ratio"),
                d = s.real("block.element_diameter");
   double least = 0, most = 0;  // what other sections and gauges make of E, beside theory
-  TextTable table{{"Elements", "Choice", "E (GPa)", "E − theory", "ν (two directions)", "ν − theory"}, {}};
+  TextTable table{{"Elements", "Choice", "E (GPa)", "E against theory", "ν (two directions)", "ν against theory"}, {}};
   const auto add = [&](const dem::Record& r, const std::string& choice, double area_factor, double strain_factor) {
     const dem::Table& t = r.table("elastic");
     const double modulus = 1e-9 * t.real("young_modulus").front() * area_factor * strain_factor;
@@ -167,11 +176,11 @@ FigureContent elastic_choices(const StudyResult& study) {
                             .per_row = 1});
   content.finding =
       "Springs Kₙ at the planes, the box of element centres and the distance of the end layers were chosen because "
-      "they give the published mean errors of about 0.6 %.";
+      "at paper scale they give the published mean errors of about 0.6 %.";
   if (least != 0) {
     content.finding +=
-        fmt::format(" With other sections and gauges E is off by {} to {}, and more the smaller the block.",
-                    with_sign(percent(most, 0)), with_sign(percent(least, 0)));
+        fmt::format(" With other sections and gauges E is off by {} to {}{}.", with_sign(percent(most, 0)),
+                    with_sign(percent(least, 0)), sizes.size() > 1 ? ", and more the smaller the block" : "");
   }
   return content;
 }

@@ -143,7 +143,7 @@ std::string unit_drawing() {
     s += circle(x0 - 52, 190, 48, "#c9d5de") + circle(x0 + 52, 190, 48, "#c9d5de") + circle(x0, 108, 48, "#edd9a3");
     s += line(x0, 108, x0 + 52, 190, "#0072b2", 3) + line(x0 - 52, 190, x0 + 52, 190, "#d55e00", 3);
     s += text(x0, 103, "1") + text(x0 - 60, 186, "2") + text(x0 + 72, 186, "3, 4") +
-         text(x0 + 60, 136, "bond 1", "start") + text(x0, 258, "bond 2");
+         text(x0 + 60, 136, "bond 1", "start") + text(x0, 210, "bond 2");
     s += tension ? arrow(x0, 60, x0, 18, "#333") + text(x0 + 12, 30, "F_{z}", "start")
                  : arrow(x0, 12, x0, 56, "#333") + text(x0 + 12, 30, "F_{z}", "start");
     s += arrow(x0 - 126, 190, x0 - 102, 190, "#333") + arrow(x0 + 126, 190, x0 + 102, 190, "#333") +
@@ -211,7 +211,8 @@ FigureContent unit(const StudyResult&) {
       "later.";
   content.panels.push_back(
       {.id = "",
-       .caption = "The tetrahedral unit seen from the side, under tension and under compression.",
+       .caption = "The tetrahedral unit seen from the side, under tension and under compression (schematic). "
+                  "Horizontal arrows: how the elements at the plane move.",
        .alt = "One sphere on three that stand on a plane, pulled on the left, pressed on the right.",
        .content = unit_drawing(),
        .per_row = 1,

@@ -54,6 +54,9 @@ render::Chart against_size(const StudyResult& study, const Test& test) {
   }
   line = styled(line, "this study", 0);
   line.marker = render::Marker::circle;
+  // First: its white marker would hide ours.
+  add_published(chart, {{4, rock * (1 + study.published_value(test.published_single) / 100)}},
+                "published, single unit");
   chart.series.push_back(line);
   const dem::Record* main = main_record(study, test.name);
   std::size_t colour = 1;
@@ -67,12 +70,10 @@ render::Chart against_size(const StudyResult& study, const Test& test) {
       other.y.push_back(r->value_or_nan(test.result));
     }
     if (other.x.empty()) continue;
-    other = styled(other, fmt::format("planes: {}", planes), colour++, render::Line::none);
+    other = styled(other, fmt::format("planes {}", planes), colour++, render::Line::none);
     other.marker = colour == 2 ? render::Marker::square : render::Marker::triangle;
     chart.series.push_back(other);
   }
-  add_published(chart, {{4, rock * (1 + study.published_value(test.published_single) / 100)}},
-                "published, single unit");
   for (const render::Series& s : chart.series) {
     for (const double y : s.y) {
       low = std::min(low, y);
@@ -224,8 +225,10 @@ FigureContent strength_choices(const StudyResult& study) {
                             number(r->value(quantity::energy_residual), 2)});
     }
     if (best && std::isfinite(published)) {
+      const std::string choice = choice_words(*best, *main);
       nearest.push_back(fmt::format("in {} {} ({} elements, {} %, published {} %)", test.name,
-                                    choice_words(*best, *main), count(best->value(quantity::particles)),
+                                    choice == "as the series" ? "the series itself" : choice,
+                                    count(best->value(quantity::particles)),
                                     with_sign(number(best->value_or_nan(test.error), 3)), shortest(published)));
     }
   }
@@ -233,7 +236,12 @@ FigureContent strength_choices(const StudyResult& study) {
   if (table.rows.empty()) return content;
   content.panels.push_back(
       {.id = "", .caption = "Strengths under other choices.", .alt = "", .content = table, .per_row = 1});
-  content.finding += nearest.empty() ? "" : "Closest to the published means: " + joined(nearest, "; ") + ".";
+  if (std::ranges::none_of(records_of(study, tension.name), [&](const dem::Record* r) {
+        return r->text("direction") != main_record(study, tension.name)->text("direction");
+      })) {
+    content.finding += "No other direction of tension was run at this scale. ";
+  }
+  content.finding += nearest.empty() ? "" : "Closest to the published means is, " + joined(nearest, "; ") + ".";
   return content;
 }
 

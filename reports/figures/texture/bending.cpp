@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "engine/analysis/fits.h"
 #include "reports/figures/table.h"
@@ -33,18 +34,31 @@ void add_strip(render::Scene& scene, double x, double z, double half, double sid
        false});
 }
 
+// Where a strip meets the body, whose face is rough: the outermost particle over it.
+double bed_of(const dem::Record& record, double x, double half, double side, double otherwise) {
+  const dem::Table& particles = record.table("particles");
+  const auto position = particles.real("position"), radius = particles.real("radius");
+  double bed = otherwise;
+  for (std::size_t i = 0; i < radius.size(); ++i) {
+    const double face = position[3 * i + 2] + side * radius[i];
+    if (std::abs(position[3 * i] - x) < half + radius[i] && side * (face - bed) > 0) bed = face;
+  }
+  return bed;
+}
+
 Panel cracks_panel(const StudyResult& study, const SeriesCase& item, const Bent& bent, const std::string& what) {
   const Size size = size_of(*item.record);
   const double strip = std::max(0.05 * size.height, 0.5 * mean_diameter(*item.record));  // bending.h of the model
   const auto load = [&](render::Scene& scene) {
-    add_strip(scene, -bent.half_span, 0, strip, -1);
-    add_strip(scene, bent.half_span, 0, strip, -1);
-    add_strip(scene, 0, size.height, strip, 1);
+    for (const auto& [x, face, side] : {std::tuple{-bent.half_span, 0.0, -1.0}, std::tuple{bent.half_span, 0.0, -1.0},
+                                        std::tuple{0.0, size.height, 1.0}}) {
+      add_strip(scene, x, bed_of(*item.record, x, strip, side, face), strip, side);
+    }
     if (bent.notch > 0) {
       scene.lines.push_back({{{0, 0, 0}, {0, 0, bent.notch}}, {0, 0, 0}, 2.5, render::Line::solid, true});
     }
     // The picture holds the strips too.
-    const double half = 0.5 * size.diameter, room = 1.5 * strip;
+    const double half = 0.5 * size.diameter, room = 1.5 * strip + 0.5 * mean_diameter(*item.record);
     scene.camera.frame = {{{-half, -half, -room}, {half, half, size.height + room}}};
     scene.height = static_cast<int>(std::lround(scene.width * (size.height + 2 * room) / size.diameter));
   };
@@ -52,7 +66,7 @@ Panel cracks_panel(const StudyResult& study, const SeriesCase& item, const Bent&
                               "The " + what +
                                   " on its strips, cut along its middle plane, with the cracks near it at the "
                                   "end of loading" +
-                                  (bent.notch > 0 ? "; the notch is the thick line." : "."),
+                                  (bent.notch > 0 ? "; the notch is the thick line" : "") + first_seed({item}) + ".",
                               picture_width, load);
   return panel;
 }
@@ -66,16 +80,17 @@ void add_loads(FigureContent& content, const std::vector<SeriesCase>& cases, dou
     if (item.record->table("history").has("opening")) notched.push_back(item);
   }
   if (!notched.empty()) {
-    content.panels.push_back({.id = "opening",
-                              .caption = "Load against the opening of the notch at the lower face.",
-                              .alt = "Curves of load against opening.",
-                              .content = load_curves(notched, {"opening", "axial_stress", 1e6, 1e-3 * area},
-                                                     "Opening of the notch (µm)", load_title),
-                              .per_row = 2});
+    content.panels.push_back(
+        {.id = "opening",
+         .caption = "Load against the opening of the notch at the lower face" + first_seed(notched) + ".",
+         .alt = "Curves of load against opening.",
+         .content = load_curves(notched, {"opening", "axial_stress", 1e6, 1e-3 * area}, "Opening of the notch (µm)",
+                                load_title),
+         .per_row = 2});
   }
   content.panels.push_back(
       {.id = "deflection",
-       .caption = "Load against the approach of the strips over " + depth + ".",
+       .caption = "Load against the approach of the strips over " + depth + first_seed(cases) + ".",
        .alt = "Curves of load against deflection.",
        .content = load_curves(cases, {"platen_strain", "axial_stress", 100, 1e-3 * area},
                               "Approach (% of " + depth.substr(depth.rfind(' ') + 1) + ")", load_title),
@@ -166,7 +181,7 @@ FigureContent half_disc_test(const StudyResult& study) {
                                   said_of(cases.front(), toughness, "MPa√m"));
     if (diameter < least_diameter) {
       content.finding += fmt::format(
-          " The half disc is {} mm wide. The method asks for {:g} mm; smaller half discs give a lower K_Ic.",
+          " The half disc is {} mm wide. The method asks for at least {:g} mm; smaller half discs give a lower K_Ic.",
           shortest(1e3 * diameter), 1e3 * least_diameter);
     }
   }

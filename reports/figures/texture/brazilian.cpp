@@ -161,6 +161,22 @@ Agreement agreement_of(const analysis::Estimate& ratio) {
   return ratio.high < lowest || ratio.low > highest ? Agreement::disagrees : Agreement::undecided;
 }
 
+Agreement of_all(const std::vector<Agreement>& verdicts) {
+  const auto any = [&](Agreement verdict) { return std::ranges::find(verdicts, verdict) != verdicts.end(); };
+  if (any(Agreement::disagrees)) return Agreement::disagrees;
+  return any(Agreement::undecided) ? Agreement::undecided : Agreement::agrees;
+}
+
+// Shares (%) of a disc within half a radius of its axis, and within a quarter of a radius of its diameter.
+constexpr double even_middle = 25, even_band = 31.5;
+
+// Whether a share (%) of so many cracks is more than that of evenly spread ones, by twice the scatter of their number.
+Agreement beside_even(double share, double even, std::size_t cracks) {
+  const double scatter = std::sqrt(even * (100 - even) / static_cast<double>(std::max<std::size_t>(cracks, 1)));
+  if (share > even + 2 * scatter) return Agreement::agrees;
+  return share < even - 2 * scatter ? Agreement::disagrees : Agreement::undecided;
+}
+
 std::size_t first_cracks(const dem::Record& record) {
   double at_peak = 0;
   for (const dem::Quantity& one : quantity::cracks_at_peak) at_peak += record.value_or_nan(one);
@@ -177,14 +193,18 @@ FigureContent brazilian_test(const StudyResult& study) {
   if (cases.empty()) return content;
   for (const SeriesCase& item : cases) content.panels.push_back(disc_panel(study, item));
   const std::string peaks = by_case(cases, quantity::brazilian_strength, 3);
-  content.panels.push_back({.id = "load",
-                            .caption = "Load against the approach of the platens over the diameter.",
-                            .alt = "Curves of load; largest values of " + peaks + ".",
-                            .content = load_curves(cases, {"platen_strain", "axial_stress", 100, 1e-6},
-                                                   "Approach of the platens (% of D)", splitting_stress)});
+  content.panels.push_back(
+      {.id = "load",
+       .caption = "Splitting stress of the load P, on a disc of diameter D and thickness t, against the "
+                  "approach of the platens" +
+                  first_seed(cases) + ".",
+       .alt = "Curves of load; largest values of " + peaks + ".",
+       .content = load_curves(cases, {"platen_strain", "axial_stress", 100, 1e-6}, "Approach of the platens (% of D)",
+                              splitting_stress)});
   content.panels.push_back(
       {.id = "strain",
-       .caption = "Load against the strain across the loaded diameter, of a round gauge in the middle.",
+       .caption = "Splitting stress against the strain across the loaded diameter, of a round gauge in the middle" +
+                  first_seed(cases) + ".",
        .alt = "Curves of load against the tensile strain in the middle; largest loads of " + peaks + ".",
        .content = load_curves(cases, {"axial_strain", "axial_stress", 100, 1e-6}, "Tensile strain in the middle (%)",
                               splitting_stress)});
@@ -248,10 +268,7 @@ FigureContent brazilian_strengths(const StudyResult& study) {
        .content = table,
        .per_row = 1});
   if (!verdicts.empty()) {
-    const auto any = [&](Agreement verdict) { return std::ranges::find(verdicts, verdict) != verdicts.end(); };
-    content.agreement = any(Agreement::disagrees)   ? Agreement::disagrees
-                        : any(Agreement::undecided) ? Agreement::undecided
-                                                    : Agreement::agrees;
+    content.agreement = of_all(verdicts);
     content.finding = "Direct over Brazilian strength is " + listed(said) + ".";
     const bool few = std::ranges::all_of(samples, [](const Sample& one) { return one.values.size() < 3; });
     if (few) content.finding += " So few specimens give no interval.";
@@ -281,22 +298,40 @@ FigureContent brazilian_cracks(const StudyResult& study) {
     for (LegendEntry& mineral : mineral_legend(study, record)) key.push_back(std::move(mineral));
     content.panels.push_back(
         {.id = "first_" + item.id,
-         .caption = fmt::format("The first {} cracks, through the whole thickness.", first),
+         .caption = fmt::format("The first {} cracks, through the whole thickness{}.", first, first_seed({item})),
          .alt = fmt::format("The first {} cracks: {}.", first, crack_words(crack_numbers(record, first))),
          .content = Picture{.scene = std::move(scene), .label = item.label + ", first cracks", .legend = key},
          .per_row = 4});
     SeriesCase later = item;
     later.label += ", at the end";
-    Panel end = cracks_at_end(study, later, "Cracks near the section at the end of loading.", picture_width,
-                              [&](render::Scene& loaded) { add_platens(loaded, item); });
+    Panel end = cracks_at_end(study, later, "Cracks near the section at the end of loading" + first_seed({item}) + ".",
+                              picture_width, [&](render::Scene& loaded) { add_platens(loaded, item); });
     end.id = "end_" + item.id;
     end.per_row = 4;
     content.panels.push_back(std::move(end));
   }
-  content.finding = "Of the first cracks " + by_case(cases, quantity::first_cracks_middle, 2) +
-                    " lie within half the radius of the axis, and " + by_case(cases, quantity::first_cracks_band, 2) +
-                    " within a quarter of the radius of the loaded diameter (" + listed(labels_of(cases)) +
-                    "); of cracks spread evenly, 25 and 31 % would.";
+  std::vector<std::string> said;
+  std::vector<Agreement> verdicts;
+  for (const SeriesCase& item : cases) {
+    const Spread middle = analysis::spread(item, shown(quantity::first_cracks_middle)),
+                 band = analysis::spread(item, shown(quantity::first_cracks_band));
+    if (middle.count == 0 || band.count == 0) continue;
+    said.push_back(fmt::format("{} % and {} % with {}", number(middle.mean, 2), number(band.mean, 2), item.label));
+    std::size_t all = 0;
+    for (const dem::Record* record : item.repeats) all += first_cracks(*record);
+    verdicts.push_back(beside_even(middle.mean, even_middle, all));
+    verdicts.push_back(beside_even(band.mean, even_band, all));
+  }
+  if (said.empty()) return content;
+  content.agreement = of_all(verdicts);
+  content.finding =
+      "Of the first cracks, those within half a radius of the axis and those within a quarter of a radius "
+      "of the loaded diameter are " +
+      listed(said) +
+      fmt::format(
+          ". Evenly spread cracks would give {:g} % in the middle and {:.3g} % along the diameter; "
+          "more by twice the scatter of their number counts as expected.",
+          even_middle, even_band);
   return content;
 }
 

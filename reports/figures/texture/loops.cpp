@@ -44,8 +44,9 @@ FigureContent unloading_loops_test(const StudyResult& study) {
   render::Chart damage;
   damage.x.title = "Axial strain at which unloading begins (%)";
   damage.left.title = "Damage 1 − E/E₁";
-  TextTable table{
-      {"Seed", "Loop", "Strain (%)", "Stress (MPa)", "Strain after unloading (%)", "Modulus E (GPa)", "Damage"}, {}};
+  TextTable table{{"Seed", "Loop", "Gauge strain (%)", "Stress (MPa)", "Gauge strain after unloading (%)",
+                   "Modulus E (GPa)", "Damage"},
+                  {}};
   double last = 0;
   std::size_t k = 0;
   for (const dem::Record* record : cases.front().repeats) {
@@ -72,7 +73,8 @@ FigureContent unloading_loops_test(const StudyResult& study) {
   }
   content.panels.push_back(
       {.id = "table",
-       .caption = "Loops: strain and stress at which unloading begins, and the secant modulus of unloading.",
+       .caption =
+           "Loops: strain of the gauge and stress at which unloading begins, and the secant modulus of unloading.",
        .alt = "",
        .content = table,
        .per_row = 1});

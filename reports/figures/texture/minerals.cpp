@@ -93,16 +93,14 @@ FigureContent mineral_properties(const StudyResult& study) {
       "quartz_young_modulus",          "quartz_tensile_strength",          "quartz_ucs",          "quartz_m",
       "biotite_young_modulus",         "biotite_tensile_strength",         "biotite_ucs",         "biotite_m"};
   add_missing(content, study, {test_compression, test_tension});
-  TextTable table{{"Mineral", "E (GPa)", "TS (MPa)", "UCS (MPa)", "m (95 % interval)"}, {}};
+  TextTable table{{"Mineral", "E (GPa)", "TS (MPa)", "UCS (MPa)", "m"}, {}};
+  bool intervals = false;  // of m
   std::vector<std::string> said;
   std::array bars{
       PropertyBars{.id = "modulus", .title = "Young’s modulus (GPa)", .caption = "Young’s modulus of the minerals."},
       PropertyBars{.id = "tensile_strength", .title = "TS (MPa)", .caption = "Tensile strength of the minerals."},
       PropertyBars{.id = "ucs", .title = "UCS (MPa)", .caption = "Compressive strength of the minerals."},
-      PropertyBars{
-          .id = "m",
-          .title = "Hoek-Brown m",
-          .caption = "Hoek-Brown m of the minerals; whiskers: 95 % intervals, where enough pressures were run."}};
+      PropertyBars{.id = "m", .title = "Hoek-Brown m", .caption = "Hoek-Brown m of the minerals"}};
   for (const std::string& mineral : minerals_tested(study)) {
     const StudyResult part = of_mineral(study, mineral);
     const auto pressed = series_of(part, test_compression, parameter::confining_pressure);
@@ -112,6 +110,7 @@ FigureContent mineral_properties(const StudyResult& study) {
                  ucs = of_first(pressed, shown(quantity::compressive_strength));
     const Spread ts = of_first(pulled, shown(quantity::tensile_strength));
     const auto m = envelopes_of(study, mineral).find("peak.m");
+    intervals = intervals || (m && m->has_interval());
     table.rows.push_back(
         {mineral, beside(modulus, theirs.young_modulus, 3), beside(ts, theirs.tensile_strength, 3),
          beside(ucs, theirs.ucs, 3),
@@ -144,6 +143,8 @@ FigureContent mineral_properties(const StudyResult& study) {
     if (!parts.empty()) said.push_back(mineral + ": " + joined(parts, ", "));
   }
   if (table.rows.empty()) return content;
+  if (intervals) table.head.back() += " (95 % interval)";
+  bars.back().caption += intervals ? "; whiskers: 95 % intervals, where enough pressures were run." : ".";
   content.panels.push_back({.id = "",
                             .caption = "Ours / published (the calibrated values of Table 3).",
                             .alt = "",
@@ -172,7 +173,7 @@ FigureContent mineral_envelopes(const StudyResult& study) {
   chart.left.title = "Peak axial stress σ₁ (MPa)";
   chart.left.low = 0;
   std::vector<std::string> said;
-  std::optional<std::size_t> last_published;  // one key for the dashed lines of all minerals, after theirs
+  bool fitted = false, published = false;  // one key for the lines of each kind of all minerals, of no one's colour
   std::size_t index = 0;
   for (const std::string& mineral : minerals_tested(study)) {
     const analysis::Envelopes found = envelopes_of(study, mineral);
@@ -192,6 +193,7 @@ FigureContent mineral_envelopes(const StudyResult& study) {
       if (!series.x.empty()) chart.series.push_back(series);
     };
     if (found.peak_fit) {
+      fitted = true;
       line(render::Line::solid, [&](double x) { return found.peak_fit->at(x); });
       said.push_back(fmt::format("{} m {}", mineral, told(found.peak_fit->m, 3)));
     }
@@ -204,11 +206,21 @@ FigureContent mineral_envelopes(const StudyResult& study) {
     if (high > 0) {
       const std::size_t before = chart.series.size();
       line(render::Line::dash, [&](double x) { return analysis::hoek_brown(x, theirs.ucs, theirs.m, 1); });
-      if (chart.series.size() > before) last_published = before;
+      published = published || chart.series.size() > before;
     }
   }
   if (chart.series.empty()) return content;
-  if (last_published) chart.series[*last_published].label = "published (Table 3)";
+  const auto key = [&](const char* label, render::Line kind) {
+    const render::Series& first = chart.series.front();
+    chart.series.push_back({.label = label,
+                            .x = {first.x.front(), first.x.front()},
+                            .y = {first.y.front(), first.y.front()},
+                            .colour = {0.35, 0.35, 0.35},
+                            .line = kind,
+                            .y_error = {}});
+  };
+  if (fitted) key("our fits", render::Line::solid);
+  if (published) key("published (Table 3)", render::Line::dash);
   chart.legend = render::Chart::Legend::below;
   const std::string fits =
       said.empty() ? "Too few pressures for a fit." : "Fitted with σc = UCS: " + joined(said, "; ") + ".";

@@ -440,6 +440,11 @@ Panel cracks_at_end(const StudyResult& study, const SeriesCase& item, std::strin
           .content = std::move(picture)};
 }
 
+std::string first_seed(const std::vector<SeriesCase>& cases) {
+  return std::ranges::any_of(cases, [](const SeriesCase& item) { return item.repeats.size() > 1; }) ? ", first seed"
+                                                                                                    : "";
+}
+
 render::Chart load_curves(const std::vector<SeriesCase>& cases, const CurveOf& of, const std::string& x_title,
                           const std::string& y_title) {
   render::Chart chart;

@@ -97,6 +97,8 @@ inline constexpr render::Colour steel{0.35, 0.38, 0.42};
 /// A body at the end of loading, cut, with the cracks near the section; `load` adds what loads it to the scene.
 Panel cracks_at_end(const StudyResult& study, const SeriesCase& item, std::string caption, int width,
                     const std::function<void(render::Scene&)>& load = {});
+/// ", first seed" of pictures and curves, where numbers beside them are of several; "" else.
+std::string first_seed(const std::vector<SeriesCase>& cases);
 /// A curve of each case from zero, its legend below.
 render::Chart load_curves(const std::vector<SeriesCase>& cases, const CurveOf& of, const std::string& x_title,
                           const std::string& y_title);

@@ -55,6 +55,13 @@ analysis::Estimate angle_of(const analysis::Estimate& slope) {
   return {degrees(slope.value), degrees(slope.low), degrees(slope.high)};
 }
 
+// With its interval: that zero lies inside it says nothing here.
+std::string amount(const analysis::Estimate& estimate, std::string_view unit) {
+  const std::string value = number(estimate.value, 3) + (unit == "°" ? "" : " ") + std::string(unit);
+  if (!estimate.has_interval()) return value + " (no interval from so few points)";
+  return fmt::format("{} (95 % interval {} to {})", value, number(estimate.low, 3), number(estimate.high, 3));
+}
+
 // Where a residual was read: over the last fifth of the shear displacement (quantity::residual_shear). Tests go to a multiple
 // of the displacement of their peak, so that each has another place.
 struct ResidualPlace {
@@ -73,8 +80,9 @@ ResidualPlace place_of_residual(const dem::Record& record) {
 
 // Peak and residual of each case with their places; a case that was not sheared to the end has no residual.
 TextTable strengths_table(const std::vector<SeriesCase>& cases) {
-  TextTable table{
-      {"Case", "Peak (MPa)", "at (% of the edge)", "Residual (MPa)", "read at (% of the edge)", "Rise there (µm)"}, {}};
+  TextTable table{{"Case", "Peak (MPa)", "Displacement at the peak (% of the edge)", "Residual (MPa)",
+                   "Displacement at the residual (% of the edge)", "Rise over that stretch (µm)"},
+                  {}};
   for (const SeriesCase& item : cases) {
     const dem::Record& record = *item.record;
     const render::Series stress = curve(record.table("history"), {"platen_strain", "axial_stress", 100, 1e-6});
@@ -90,6 +98,24 @@ TextTable strengths_table(const std::vector<SeriesCase>& cases) {
     table.rows.push_back(std::move(row));
   }
   return table;
+}
+
+// The two halves of the box round the block, with the gap between them; the picture holds them too.
+void add_box(render::Scene& scene, const dem::Record& record, double gap) {
+  const Size size = size_of(record);
+  const double half = 0.5 * size.diameter, room = mean_diameter(record), beside = half + 0.6 * room;
+  const double middle = size.z_low + 0.5 * size.height;
+  for (const double side : {-1.0, 1.0}) {
+    const double edge = middle + side * 0.5 * gap * size.height, end = middle + side * (0.5 * size.height + 0.6 * room);
+    scene.lines.push_back({{{-beside, 0, edge}, {-beside, 0, end}, {beside, 0, end}, {beside, 0, edge}},
+                           steel,
+                           3,
+                           render::Line::solid,
+                           false});
+  }
+  scene.camera.frame = {
+      {{-half - room, -half, size.z_low - room}, {half + room, half, size.z_low + size.height + room}}};
+  scene.height = static_cast<int>(std::lround(scene.width * (size.height + 2 * room) / (size.diameter + 2 * room)));
 }
 
 // "Each residual is the mean over the last fifth of its test, ..."
@@ -119,7 +145,7 @@ FigureContent direct_shear_test(const StudyResult& study) {
   if (cases.empty()) return content;
   const std::string peaks = by_case(cases, quantity::shear_strength, 3);
   content.panels.push_back({.id = "stress",
-                            .caption = "Shear stress against shear displacement.",
+                            .caption = "Shear stress against shear displacement" + first_seed(cases) + ".",
                             .alt = "Curves of shear stress; peaks of " + peaks + ".",
                             .content = load_curves(cases, {"platen_strain", "axial_stress", 100, 1e-6}, displacement,
                                                    "Shear stress τ (MPa)")});
@@ -128,15 +154,21 @@ FigureContent direct_shear_test(const StudyResult& study) {
   rise.left.low.reset();  // it may settle at first
   content.panels.push_back(
       {.id = "rise",
-       .caption = "Rise of the upper half above its place under the normal stress alone.",
+       .caption = "Rise of the upper half above its place under the normal stress alone" + first_seed(cases) + ".",
        .alt = "Curves of the rise; at the peak " + by_case(cases, quantity::dilation_at_peak, 2) + ".",
        .content = std::move(rise)});
   for (const SeriesCase& item : cases) {
     content.panels.push_back(cracks_at_end(
-        study, item, "Cracks near the middle section at the end of loading; the halves slide along x.", picture_width));
+        study, item,
+        "Cracks near the middle section at the end of loading, between the two halves of the box, which slide along x" +
+            first_seed(cases) + ".",
+        picture_width,
+        [&](render::Scene& scene) { add_box(scene, *item.record, study.scenario->real("direct_shear.gap")); }));
     content.panels.back().per_row = 3;
   }
-  content.finding = "The shear strength is " + peaks + " at " + listed(labels_of(cases)) + ".";
+  std::vector<std::string> stresses;
+  for (const SeriesCase& item : cases) stresses.push_back(shortest(item.value));
+  content.finding = "The shear strength is " + peaks + " at σₙ of " + listed(stresses) + " MPa.";
   return content;
 }
 
@@ -165,7 +197,7 @@ FigureContent direct_shear_envelope(const StudyResult& study) {
     const analysis::Estimate angle = angle_of(found.fit->slope);
     table.rows.push_back(
         {label, estimate_text(found.fit->intercept, 3, true), estimate_text(angle, 3, true), std::to_string(n)});
-    said.push_back(fmt::format("{}, c {} and φ {}", label, told(found.fit->intercept, 3, "MPa"), told(angle, 3, "°")));
+    said.push_back(fmt::format("{}, c {} and φ {}", label, amount(found.fit->intercept, "MPa"), amount(angle, "°")));
   };
   add(quantity::shear_strength, "peak", 0);
   add(quantity::residual_shear, "residual", 1);
@@ -179,14 +211,14 @@ FigureContent direct_shear_envelope(const StudyResult& study) {
                             .alt = "",
                             .content = table,
                             .per_row = 1});
-  content.panels.push_back(
-      {.id = "strengths",
-       .caption =
-           "Strengths and where they were read. The residual is the mean over the last fifth of each test, which "
-           "ends at a multiple of the displacement of its peak.",
-       .alt = "",
-       .content = strengths_table(cases),
-       .per_row = 1});
+  content.panels.push_back({.id = "strengths",
+                            .caption = "Strengths and where they were read" + first_seed(cases) +
+                                       ". The residual is the mean over the last fifth of each test, which ends at " +
+                                       shortest(study.scenario->real("direct_shear.follow")) +
+                                       " times the displacement of its peak.",
+                            .alt = "",
+                            .content = strengths_table(cases),
+                            .per_row = 1});
   content.finding = "Mohr-Coulomb lines through the strengths: " + joined(said, "; ") + "." + residual_words(cases);
   return content;
 }
