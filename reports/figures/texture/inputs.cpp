@@ -178,9 +178,11 @@ FigureContent ellipsoid_turns(const StudyResult& study) {
   double apart = 0;
   for (std::size_t i = 0; i < 3 && axis.size() >= 3; ++i) apart = std::max(apart, std::abs(axis[i] - ours[i]));
   content.agreement = apart < 1e-12 ? Agreement::agrees : Agreement::disagrees;
-  content.finding = fmt::format("{}The long axes of the specimen’s grains point where this rotation puts them{}.",
-                                example ? "The angles drawn are an example, with aspect ratio 2. " : "",
-                                apart < 1e-12 ? "" : ", but for " + number(apart, 2) + " of a unit vector");
+  content.finding = fmt::format(
+      "{}The long axes of the specimen’s grains point where this rotation puts them{}. Eq. 4 as "
+      "printed says the same for a dip direction of 0° alone.",
+      example ? "The angles drawn are an example, with aspect ratio 2. " : "",
+      apart < 1e-12 ? "" : ", but for " + number(apart, 2) + " of a unit vector");
   return content;
 }
 
