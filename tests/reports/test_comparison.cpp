@@ -328,7 +328,7 @@ TEST_CASE("the log of a study that changed everywhere stays short") {
   std::size_t items = 0;
   for (std::size_t at = last.find("\"what\""); at != std::string::npos; at = last.find("\"what\"", at + 1)) ++items;
   CHECK(items == 31);
-  CHECK(has(last, "more\",\"what\":\"others\""));
+  CHECK(has(last, "\"what\":\"others\",\"difference\":\""));
 }
 
 TEST_CASE("an acceptance that was killed after it took place gets its line in the log") {
