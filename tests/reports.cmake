@@ -9,6 +9,7 @@ dem_test(test_report_published SOURCES reports/test_published.cpp LIBRARIES dem_
 dem_test(test_report_laboratory SOURCES reports/test_laboratory.cpp LIBRARIES dem_synthetic nlohmann_json::nlohmann_json)
 dem_test(test_report_fits SOURCES reports/test_fits.cpp LIBRARIES dem_reports)
 dem_test(test_report_granite SOURCES reports/test_granite.cpp LIBRARIES dem_synthetic)
+dem_test(test_report_choices SOURCES reports/test_choices.cpp LIBRARIES dem_synthetic nlohmann_json::nlohmann_json)
 dem_test(test_report_workers SOURCES reports/test_workers.cpp LIBRARIES dem_synthetic)
 dem_test(test_crate SOURCES reports/test_crate.cpp LIBRARIES dem_synthetic nlohmann_json::nlohmann_json)
 dem_test(test_report_page SOURCES reports/test_page.cpp LIBRARIES dem_synthetic nlohmann_json::nlohmann_json)

@@ -449,8 +449,8 @@ void add_test(Record& record, const Specimen& specimen, const Settings& settings
   record.put(quantity::time_step, loading.assembly().time_step());
 
   record.checks.push_back({"energy_residual", residual, residual_limit, residual <= residual_limit,
-                           "Largest residual of the energy account over the work W of the platens or grips, taken as "
-                           "at least 1 % of its largest value, over all samples. Limit: ten times what sound "
+                           "Largest residual of the energy account over the work done on the specimen from outside, taken "
+                           "as at least 1 % of its largest value, over all samples. Limit: ten times what sound "
                            "tests reach; a time step that is too long exceeds it."});
   if (loaded) {
     record.checks.push_back({"equilibrium", imbalance, imbalance_limit, imbalance <= imbalance_limit,

@@ -26,6 +26,19 @@ void along_the_eye(Paper& paper, const Vec2& at, bool towards) {
     paper.marker(Marker::cross, at, 1.2 * radius, ink);
 }
 
+/// A label that would lie on an arrow goes to its side.
+Vec2 beside(const Vec2& label, const Vec2& from, const Vec2& end) {
+  constexpr double room = 8;
+  const double length = std::hypot(end.x - from.x, end.y - from.y);
+  if (length < 1e-9) return label;
+  const double ux = (end.x - from.x) / length, uy = (end.y - from.y) / length;
+  const double along = (label.x - from.x) * ux + (label.y - from.y) * uy;
+  const double across = (label.y - from.y) * ux - (label.x - from.x) * uy;
+  if (along < 0 || along > length || std::abs(across) >= room) return label;
+  const double shift = (across < 0 ? -room : room) - across;
+  return {label.x - shift * uy, label.y + shift * ux};
+}
+
 void draw_axes(Paper& paper, const SceneResult& drawn) {
   static constexpr std::array<std::string_view, 3> names{"x", "y", "z"};
   constexpr double length = 20;
@@ -51,6 +64,9 @@ void draw_axes(Paper& paper, const SceneResult& drawn) {
                      {end.x - 6 * ux + 2.6 * uy, end.y - 6 * uy - 2.6 * ux}},
                     ink);
       label = {end.x + 6 * ux, end.y + 6 * uy};
+      for (const std::size_t other : {j, k}) {
+        label = beside(label, from, {from.x + length * drawn.right[other], from.y - length * drawn.up[other]});
+      }
     } else {
       along_the_eye(paper, from, towards > 0);
     }

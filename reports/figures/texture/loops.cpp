@@ -17,6 +17,35 @@ render::Series of_loops(const dem::Record& record, const std::string& y, double 
   return series;
 }
 
+/// Stress on the way down against the strain that is still to go, a line a loop: its slope is the modulus of unloading.
+render::Chart unloadings(const dem::Record& record) {
+  render::Chart chart;
+  chart.x.title = "Axial strain above its value after unloading (%)";
+  chart.left.title = "Axial stress (MPa)";
+  chart.left.low = 0;
+  const dem::Table& history = record.table("history");
+  const dem::Table& loops = record.table("loops");
+  const auto strain = history.real("axial_strain"), stress = history.real("axial_stress");
+  const auto top = loops.real("strain"), bottom = loops.real("low_strain");
+  std::size_t from = 0;
+  for (std::size_t k = 0; k < loops.rows(); ++k) {
+    render::Series line;
+    line.label = "loop " + std::to_string(k + 1);
+    line.colour = render::palette(k);
+    line.line = render::line_style(k);
+    while (from < strain.size() && strain[from] != top[k]) ++from;
+    for (; from < strain.size(); ++from) {
+      line.x.push_back(100 * (strain[from] - bottom[k]));
+      line.y.push_back(1e-6 * stress[from]);
+      if (strain[from] == bottom[k]) break;
+    }
+    chart.series.push_back(std::move(line));
+  }
+  leave_room(chart);
+  chart.legend = render::Chart::Legend::below;
+  return chart;
+}
+
 }  // namespace
 
 FigureContent unloading_loops_test(const StudyResult& study) {
@@ -40,7 +69,17 @@ FigureContent unloading_loops_test(const StudyResult& study) {
                                        shortest(first.number(parameter::seed.id)) + ".",
                             .alt = fmt::format("A stress-strain curve with {} loops and a peak of {} MPa.",
                                                first.table("loops").rows(), number(strength, 3)),
-                            .content = stress});
+                            .content = stress,
+                            .per_row = 1});
+  if (first.table("loops").rows() > 0) {
+    content.panels.push_back({.id = "unloading",
+                              .caption = "Each unloading, set to end at the same strain, seed " +
+                                         shortest(first.number(parameter::seed.id)) +
+                                         ": the flatter the line, the lower its modulus.",
+                              .alt = fmt::format("{} lines of unloading, each flatter than the one before.",
+                                                 first.table("loops").rows()),
+                              .content = unloadings(first)});
+  }
   render::Chart damage;
   damage.x.title = "Axial strain at which unloading begins (%)";
   damage.left.title = "Damage 1 − E/E₁";
