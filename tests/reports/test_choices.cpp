@@ -69,8 +69,8 @@ TEST_CASE("an entry about a test, a pressure or a kind of specimen is told where
 TEST_CASE("an entry about the paper's rock is not told of another one") {
   const Made made;
   reports::StudyResult study = made.study.result();
-  const Json entries = Json::array({{{"text", "A granite."}, {"rock", true}},
-                                    {{"text", "Any rock."}, {"of_the_rock", "And this granite."}}});
+  const Json entries = Json::array(
+      {{{"text", "A granite."}, {"rock", true}}, {{"text", "Any rock."}, {"of_the_rock", "And this granite."}}});
   study.of_a_paper = true;
   Json kept = reports::about(study, entries);
   REQUIRE(kept.size() == 2);

@@ -55,6 +55,42 @@ Panel disc_panel(const StudyResult& study, const SeriesCase& item) {
       .per_row = 4};
 }
 
+/// How far a disc has turned about its axis up to the peak, degrees; NaN where no state of the peak was kept.
+double turn_at_peak(const dem::Record& record) {
+  const auto peak = std::ranges::find_if(record.tables, [](const dem::Table& table) {
+    return table.name.starts_with("snapshots/") && table.has("displacement") && table.attribute("moment") == "peak";
+  });
+  if (peak == record.tables.end()) return std::nan("");
+  const auto at = record.table("particles").real("position"), moved = peak->real("displacement");
+  const auto particles = static_cast<double>(at.size() / 3);
+  std::array<double, 3> middle{}, mean{};
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    middle[i % 3] += at[i] / particles;
+    mean[i % 3] += moved[i] / particles;
+  }
+  double moment = 0, inertia = 0;
+  for (std::size_t i = 0; i < at.size(); i += 3) {
+    const double x = at[i] - middle[0], z = at[i + 2] - middle[2];
+    moment += z * (moved[i] - mean[0]) - x * (moved[i + 2] - mean[2]);
+    inertia += x * x + z * z;
+  }
+  return moment / inertia * 180 / std::numbers::pi;
+}
+
+/// What makes a curve flat for a while before any bond breaks.
+std::string turning_words(const std::vector<SeriesCase>& cases) {
+  constexpr double felt = 0.5;  // degrees: the rim has moved by more than a hundredth of its radius
+  std::vector<std::string> turns;
+  for (const SeriesCase& item : cases) {
+    const double turn = std::abs(turn_at_peak(*item.record));
+    if (turn > felt) turns.push_back(fmt::format("{}° between {}", number(turn, 2), item.label));
+  }
+  if (turns.empty()) return "";
+  return " Up to its peak the disc turns by " + listed(turns) +
+         ": nothing holds it but the few particles of its rim that bear, without friction. Where a curve is flat, it "
+         "turns on to the next ones.";
+}
+
 constexpr const char* splitting_stress = "2P/(πDt) (MPa)";
 
 std::vector<double> strengths(const std::vector<const dem::Record*>& records, const dem::Quantity& of) {
@@ -197,7 +233,7 @@ FigureContent brazilian_test(const StudyResult& study) {
       {.id = "load",
        .caption = "Splitting stress of the load P, on a disc of diameter D and thickness t, against the "
                   "approach of the platens" +
-                  first_seed(cases) + ".",
+                  first_seed(cases) + "." + turning_words(cases),
        .alt = "Curves of load; largest values of " + peaks + ".",
        .content = load_curves(cases, {"platen_strain", "axial_stress", 100, 1e-6}, "Approach of the platens (% of D)",
                               splitting_stress)});

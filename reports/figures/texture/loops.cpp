@@ -72,13 +72,12 @@ FigureContent unloading_loops_test(const StudyResult& study) {
                             .content = stress,
                             .per_row = 1});
   if (first.table("loops").rows() > 0) {
-    content.panels.push_back({.id = "unloading",
-                              .caption = "Each unloading, set to end at the same strain, seed " +
-                                         shortest(first.number(parameter::seed.id)) +
-                                         ": the flatter the line, the lower its modulus.",
-                              .alt = fmt::format("{} lines of unloading, each flatter than the one before.",
-                                                 first.table("loops").rows()),
-                              .content = unloadings(first)});
+    content.panels.push_back(
+        {.id = "unloading",
+         .caption = "Each unloading, set to end at the same strain, seed " +
+                    shortest(first.number(parameter::seed.id)) + ": the flatter the line, the lower its modulus.",
+         .alt = fmt::format("{} lines of unloading, each flatter than the one before.", first.table("loops").rows()),
+         .content = unloadings(first)});
   }
   render::Chart damage;
   damage.x.title = "Axial strain at which unloading begins (%)";
