@@ -151,6 +151,11 @@ std::string listing(std::string_view text, std::size_t width) {
       add_line(out, line);
       continue;
     }
+    std::string set;  // the lines of a list stand below each other, whether they were broken here or before
+    if (const std::size_t word = line.find_first_not_of(' '); lists > 0 && word != std::string_view::npos && word > 2) {
+      set = "  " + std::string(line.substr(word));
+      line = set;
+    }
     const Line found = read(line, lists);
     inside = found.opens;
     lists = found.lists;

@@ -166,9 +166,6 @@ void set_again(PageData& data, const dem::Scenario& scenario, const ReportOption
     source.set("name", name);
     source.set("file", std::filesystem::path(name).filename().string());
     source.set("text", printed ? listing(with_short_words(text), column) : with_short_words(text));
-    // A listing stays whole where it takes well under a page of three columns of some 90 lines.
-    constexpr long short_enough = 180;
-    source.set("short", std::ranges::count(text, '\n') <= short_enough);
     source.set("href", data_uri(text, "x.toml"));
     sources.push_back(source);
   }

@@ -20,25 +20,42 @@ namespace {
 
 // Those of the first case, and of the first whose specimen has another form.
 std::string specimen_text(const StudyResult& study) {
-  std::string text, said;
-  std::size_t least = std::numeric_limits<std::size_t>::max(), most = 0;
+  struct Form {
+    std::string words;  // "" where a block has no form of its own
+    std::size_t least, most;
+  };
+  std::vector<Form> forms;
   for (const CaseResult& result : study.cases) {
     const dem::Table* particles = result.record ? result.record->find("particles") : nullptr;
     if (!particles) continue;
-    least = std::min(least, particles->rows());
-    most = std::max(most, particles->rows());
-    const std::string size = texture::specimen_words(study, result);
-    if (!text.empty() && (size == said || size.empty())) continue;
-    const std::string shown =
-        (size.empty() ? "" : size + ", ") + count(static_cast<double>(particles->rows())) + " particles";
-    text += (text.empty() ? "" : "; ") + shown;
-    if (!said.empty()) break;
-    said = size;
+    const std::string words = texture::specimen_words(study, result);
+    const auto known = std::ranges::find(forms, words, &Form::words);
+    if (known == forms.end()) {
+      forms.push_back({words, particles->rows(), particles->rows()});
+    } else {
+      known->least = std::min(known->least, particles->rows());
+      known->most = std::max(known->most, particles->rows());
+    }
   }
-  // Blocks without a form of their own differ in their number.
-  if (said.empty() && least < most)
-    return count(static_cast<double>(least)) + " to " + count(static_cast<double>(most)) + " particles";
+  std::string text;
+  for (const Form& form : forms) {
+    const std::string most = count(static_cast<double>(form.most));
+    text += (text.empty() ? "" : "; ") + (form.words.empty() ? "" : form.words + ", ") +
+            (form.least == form.most ? most : count(static_cast<double>(form.least)) + " to " + most) + " particles";
+  }
   return text;
+}
+
+/// "1", "1 to 5": those of the records.
+std::string seeds_text(const StudyResult& study) {
+  std::set<std::uint64_t> seeds;
+  for (const CaseResult& result : study.cases)
+    if (result.record) seeds.insert(result.record->seed);
+  if (seeds.size() < 2) return std::to_string(study.scenario->seed());
+  const bool in_turn = *seeds.rbegin() - *seeds.begin() + 1 == seeds.size();
+  std::vector<std::string> all;
+  for (const std::uint64_t seed : seeds) all.push_back(std::to_string(seed));
+  return in_turn && seeds.size() > 2 ? all.front() + " to " + all.back() : listed(all);
 }
 
 /// The loading steps of a case, where the scenario multiplies those of all: both factors together.
@@ -144,7 +161,11 @@ PageData title_data(const StudyResult& study, const ReportOptions& options) {
   data.set("scenario", scenario.name());
   data.set("model", words(scenario.model()));
   data.set("scale", scenario.scale());
-  data.set("seed", std::to_string(scenario.seed()));
+  const std::string seeds = seeds_text(study);
+  const std::string seed_word = seeds.find_first_not_of("0123456789") == std::string::npos ? "seed" : "seeds";
+  data.set("seed_word", seed_word);
+  data.set("seed_head", capital(seed_word));
+  data.set("seed", seeds);
   data.set("engine_version", options.engine_version);
   const std::string specimen = specimen_text(study);
   data.set("has_specimen", !specimen.empty());

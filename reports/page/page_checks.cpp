@@ -104,6 +104,7 @@ PageData checks_data(const StudyResult& study) {
     PageData group;
     group.set("check", capital(check_name(first.id)));
     group.set("meaning", first.meaning);
+    group.set("short", is_short(members.size()));
     group.set("rows", rows);
     list.push_back(group);
   }

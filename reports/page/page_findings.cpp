@@ -198,6 +198,9 @@ PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
   for (const CaseResult& result : study.cases) {
     if (!result.record && !result.error.empty()) add("Case " + result.id + " failed: " + result.error, "bad");
   }
+  for (const DrawnFigure& figure : figures) {
+    if (!figure.headline.empty()) add(figure.headline, "plain");
+  }
   const std::string results = headline(study);
   if (!results.empty()) add(results, "plain");
   if (!comparisons.rows.empty()) {

@@ -213,7 +213,7 @@ PageData results_data(const StudyResult& study, bool diagnostics) {
       }
       PageData table;
       table.set("test", capital(test.empty() ? "results" : words(test)) + ".");
-      table.set("key", joined_notes({repeated ? "Of several seeds, mean ± standard deviation." : "", key}));
+      table.set("key", joined_notes({repeated ? "Mean ± standard deviation over the seeds." : "", key}));
       table.set("lettered", !key.empty());
       table.set("heads", cells(heads));
       table.set("rows", rows);

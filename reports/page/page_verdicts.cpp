@@ -189,7 +189,7 @@ PageData laboratory_data(const StudyResult& study) {
     PageData item;
     item.set("quantity", laboratory_name(row.number));
     item.set("measured", laboratory_text(row.number));
-    item.set("ours", row.ours ? number(row.ours->value, 3) : "–");
+    item.set("ours", row.ours ? with_unit(number(row.ours->value, 3), std::string(row.number.unit)) : "–");
     std::string detail;
     if (row.ours && row.seeds > 0) detail = row.seeds == 1 ? "one seed" : fmt::format("mean of {} seeds", row.seeds);
     if (row.ours && row.ours->has_interval()) {

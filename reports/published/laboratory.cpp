@@ -122,7 +122,7 @@ bool is_small(const dem::Scenario& scenario) { return scenario.scale() == "smoke
 
 std::string laboratory_source(const dem::Scenario& scenario) {
   const std::string source = scenario.text("measured.source");
-  return source.empty() ? source : "Where they come from: " + source + ".";
+  return source.empty() ? source : "Their source: " + source + ".";
 }
 
 std::string laboratory_tally(const std::vector<LaboratoryRow>& rows, const std::string& scale) {

@@ -45,7 +45,7 @@ void compare_value(const Terms& terms, const Json& term, Comparison& row) {
     if (ours.has_interval()) {
       row.detail = interval_text(ours) + " of the fit";
     } else if (!share) {
-      row.detail = "as many points as unknowns: no interval";
+      row.detail = "no interval from so few points";
     }
   } else {
     const auto values = terms.values(term);
@@ -75,7 +75,7 @@ Slope paired_slope(const std::vector<double>& slopes) {
   Slope all{trend.slope, trend.p_value, {}};
   const std::string each = number(all.value.value, 2);
   if (!all.value.has_interval()) {
-    all.words = fmt::format("slope {}; {}: no interval", each, seeds_text(slopes.size()));
+    all.words = "slope " + each;
     return all;
   }
   all.words = fmt::format("slope {}, the mean of {} seeds ({}, p = {})", each, trend.seeds, interval_text(all.value, 2),
@@ -137,10 +137,11 @@ void compare_trend(const Terms& terms, const Json& entry, const Json& term, Comp
   const double resolution = entry.value("resolution", 0.0);
   if (change < resolution) {
     row.outcome = Verdict::undecided;
-    row.detail += fmt::format("; changes by {}, less than the {} by which half the loading rate changes it",
+    row.detail += fmt::format("; changes by {} of its mean, less than the {} change caused by halving the loading rate",
                               percent(change, 1), percent(resolution, 0));
   }
-  row.computed = row.outcome == Verdict::undecided ? "no clear trend" : word;
+  const bool untold = terms.by_chance() && !slope.value.has_interval();
+  row.computed = row.outcome != Verdict::undecided ? word : untold ? no_trend_text(slopes.size()) : "no clear trend";
   row.estimate = slope.value;
   row.p_value = slope.p_value;
 }
@@ -294,7 +295,7 @@ void read_papers(const StudyResult& study, const std::filesystem::path& folder, 
 
 Tally Comparisons::tally() const {
   Tally counts;
-  for (const Comparison& row : rows) counts.add(row.role, row.verdict);
+  for (const Comparison& row : rows) counts.add(row.role, row.verdict, row.kind == "trend");
   return counts;
 }
 

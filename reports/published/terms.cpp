@@ -120,6 +120,13 @@ bool Terms::of_size(const Json& term) const {
 analysis::Estimate Terms::fitted(const Json& term) const {
   const std::string name = term.at("fit").get<std::string>(), mineral = term.value("mineral", "");
   const auto found = fitted_value(study_, name, mineral);
+  const auto is_run = [&](const CaseResult& one) {
+    const auto* value = dem::find_value(one.parameters, "mineral");
+    const auto* text = value ? std::get_if<std::string>(value) : nullptr;
+    return text && *text == mineral;
+  };
+  if (!found && !mineral.empty() && std::ranges::none_of(study_.cases, is_run))
+    throw NotComputed{"not run at this scale: " + mineral};
   if (!found) throw NotComputed{"too few confining pressures for a fit" + (mineral.empty() ? "" : " of " + mineral)};
   return *found;
 }

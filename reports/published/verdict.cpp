@@ -61,14 +61,20 @@ Verdict judge_sign(const dem::analysis::Estimate& ours, int sign, bool by_chance
   return most <= 0 ? Verdict::missed : Verdict::undecided;
 }
 
-void Tally::add(Role role, Verdict verdict) {
+void Tally::add(Role role, Verdict verdict, bool is_trend) {
   if (role == Role::fitted) ++fitted;
   if (role == Role::theory) ++theory;
-  if (role == Role::stated) ++stated;
-  if (role == Role::stated && verdict == Verdict::missed) ++stated_missed;
+  if (role == Role::stated) {
+    ++stated;
+    stated_met += verdict == Verdict::met ? 1 : 0;
+    stated_missed += verdict == Verdict::missed ? 1 : 0;
+    stated_undecided += verdict == Verdict::undecided ? 1 : 0;
+    stated_not_computed += verdict == Verdict::not_computed ? 1 : 0;
+  }
   if (role == Role::derived) ++derived;
   if (role == Role::follows) ++follows;
   if (role != Role::number) return;
+  trends += is_trend ? 1 : 0;
   switch (verdict) {
     case Verdict::met:
       ++met;
@@ -88,16 +94,37 @@ void Tally::add(Role role, Verdict verdict) {
   }
 }
 
+namespace {
+
+// "4 published in words, all met (the limits are ours)"
+std::string stated_text(const Tally& counts) {
+  std::vector<std::string> parts;
+  if (counts.stated_met > 0 && counts.stated_met < counts.stated)
+    parts.push_back(fmt::format("{} met", counts.stated_met));
+  for (const auto& [number, word] : {std::pair{counts.stated_missed, "missed"},
+                                     {counts.stated_undecided, "undecided"},
+                                     {counts.stated_not_computed, "not computed"}}) {
+    if (number > 0) parts.push_back(fmt::format("{} {}", number, word));
+  }
+  return fmt::format("{} published in words{} (the limits are ours{})", counts.stated,
+                     counts.stated_met != counts.stated ? ""
+                     : counts.stated == 1               ? ", met"
+                                                        : ", all met",
+                     parts.empty() ? "" : "; " + joined(parts, ", "));
+}
+
+}  // namespace
+
 std::string tally_text(const Tally& counts, std::string_view scale) {
   const int all = counts.numbers();
+  const std::string_view numbers = counts.trends > 0 ? "numbers and trends" : "numbers";
   std::string text;
   if (all > 0 && counts.not_judged == all) {
-    text = all == 1
-               ? fmt::format("The one published number is not judged: it belongs to the scale “{}”.", scale)
-               : fmt::format("None of the {} published numbers and trends is judged: they belong to the scale “{}”.",
-                             all, scale);
+    text = all == 1 ? fmt::format("The one published number is not judged: it belongs to the scale “{}”.", scale)
+                    : fmt::format("None of the {} published {} is judged: they belong to the scale “{}”.", all, numbers,
+                                  scale);
   } else if (all > 1 && counts.not_computed == all) {
-    text = fmt::format("None of the {} published numbers and trends can be computed from the cases of this run.", all);
+    text = fmt::format("None of the {} published {} can be computed from the cases of this run.", all, numbers);
   } else if (all > 0) {
     std::vector<std::string> parts;
     const auto say = [&](int number, std::string_view what, bool always = false) {
@@ -111,13 +138,10 @@ std::string tally_text(const Tally& counts, std::string_view scale) {
     say(counts.not_judged, fmt::format("not judged (published at {} scale)", scale));
     say(counts.not_computed, "not computed");
     text = all == 1 ? fmt::format("Of one published number, {}.", listed(parts))
-                    : fmt::format("Of {} published numbers and trends, {}.", all, listed(parts));
+                    : fmt::format("Of {} published {}, {}.", all, numbers, listed(parts));
   }
   std::vector<std::string> apart;
-  if (counts.stated > 0) {
-    apart.push_back(fmt::format("{} published in words (the limits are ours{})", counts.stated,
-                                counts.stated_missed > 0 ? fmt::format("; {} missed", counts.stated_missed) : ""));
-  }
+  if (counts.stated > 0) apart.push_back(stated_text(counts));
   if (counts.derived > 0) apart.push_back(fmt::format("{} derived from published numbers", counts.derived));
   if (counts.follows > 0)
     apart.push_back(fmt::format("{} that follow{} from others", counts.follows, counts.follows == 1 ? "s" : ""));

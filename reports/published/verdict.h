@@ -56,10 +56,12 @@ Verdict judge_sign(const dem::analysis::Estimate& ours, int sign, bool by_chance
 struct Tally {
   int met = 0, missed = 0, undecided = 0, not_judged = 0, not_computed = 0;
   int fitted = 0, theory = 0, stated = 0, derived = 0, follows = 0;
-  int stated_missed = 0;  ///< of `stated`
+  /// Of `stated`; the rest is not judged at this scale.
+  int stated_met = 0, stated_missed = 0, stated_undecided = 0, stated_not_computed = 0;
+  int trends = 0;  ///< of those that count
   /// met to not_computed
   [[nodiscard]] int numbers() const { return met + missed + undecided + not_judged + not_computed; }
-  void add(Role role, Verdict verdict);
+  void add(Role role, Verdict verdict, bool is_trend = false);
 };
 
 /// "Of 23 published numbers and trends 12 are met, 5 missed and 6 undecided. ..."; `scale`: of the published numbers.

@@ -163,7 +163,7 @@ TEST_CASE("only published numbers count as met or missed") {
        {Verdict::met, Verdict::missed, Verdict::undecided, Verdict::not_judged, Verdict::not_computed}) {
     for (const Role role :
          {Role::number, Role::fitted, Role::theory, Role::stated, Role::derived, Role::follows, Role::sensitivity}) {
-      counts.add(role, verdict);
+      counts.add(role, verdict, true);
     }
   }
   CHECK(counts.met == 1);
@@ -180,15 +180,17 @@ TEST_CASE("only published numbers count as met or missed") {
   CHECK(reports::tally_text(counts, "paper") ==
         "Of 5 published numbers and trends, 1 is met, 1 missed, 1 undecided, 1 not judged (published at paper scale) "
         "and 1 not "
-        "computed. Counted separately: 5 published in words (the limits are ours; 1 missed), 5 derived from "
+        "computed. Counted separately: 5 published in words (the limits are ours; 1 met, 1 missed, 1 undecided, 1 not "
+        "computed), 5 derived from "
         "published "
         "numbers, 5 that follow from others, 5 to which a choice was fitted and 5 that compare theory with theory.");
   CHECK(reports::tally_text({.met = 0, .missed = 0, .undecided = 0, .not_judged = 3}, "paper") ==
-        "None of the 3 published numbers and trends is judged: they belong to the scale “paper”.");
-  CHECK(reports::tally_text({.met = 0, .missed = 2}, "paper") ==
-        "Of 2 published numbers and trends, none is met and 2 missed.");
-  CHECK(reports::tally_text({.met = 2}, "paper") == "Of 2 published numbers and trends, 2 are met.");
+        "None of the 3 published numbers is judged: they belong to the scale “paper”.");
+  CHECK(reports::tally_text({.met = 0, .missed = 2}, "paper") == "Of 2 published numbers, none is met and 2 missed.");
+  CHECK(reports::tally_text({.met = 2}, "paper") == "Of 2 published numbers, 2 are met.");
   CHECK(reports::tally_text({.met = 1}, "paper") == "Of one published number, 1 is met.");
+  CHECK(reports::tally_text({.met = 2, .stated = 3, .stated_met = 3}, "paper") ==
+        "Of 2 published numbers, 2 are met. Counted separately: 3 published in words, all met (the limits are ours).");
 }
 
 constexpr const char* falls =

@@ -96,8 +96,14 @@ std::array<render::Point, 2> frame_of(const Size& size) {
   return {{{-half, -half, size.z_low}, {half, half, size.z_low + size.height}}};
 }
 
+std::string at_case(const SeriesCase& item) {
+  return (item.label == words(item.record->test) ? "in " : "at ") + item.label;
+}
+
 std::string tension_label(const StudyResult& study, const SeriesCase& item) {
-  return swept_axis(study).id == parameter::confining_pressure.id ? "direct tension" : "direct tension, " + item.label;
+  const std::string test = words(test_tension);
+  const bool says_it = item.label == test || swept_axis(study).id == parameter::confining_pressure.id;
+  return says_it ? test : test + ", " + item.label;
 }
 
 double mean_diameter(const dem::Record& record) {
@@ -121,6 +127,13 @@ const dem::Parameter& swept_axis(const StudyResult& study) {
 
 std::vector<SeriesCase> swept(const StudyResult& study, std::string_view test) {
   return series_of(study, test, swept_axis(study));
+}
+
+std::vector<SeriesCase> swept_by_test(const StudyResult& study, std::string_view test) {
+  std::vector<SeriesCase> cases = swept(study, test);
+  const bool alone = std::ranges::all_of(study.cases, [&](const CaseResult& one) { return one.test() == test; });
+  if (cases.size() == 1 && !alone) cases.front().label = words(test);
+  return cases;
 }
 
 const dem::Record* first_specimen(const StudyResult& study) {
@@ -250,17 +263,11 @@ std::vector<render::Polyline> crack_traces(const dem::Record& record, std::size_
     const double half = std::sqrt(cracks.area[i] / std::numbers::pi);
     const double x = cracks.position[3 * i];
     const double z = cracks.position[3 * i + 2];
-    const auto trace = [&](const render::Colour& colour, double wide) {
-      traces.push_back({{{x - half * along_x, 0, z - half * along_z}, {x + half * along_x, 0, z + half * along_z}},
-                        colour,
-                        wide,
-                        render::Line::solid,
-                        true});
-    };
-    // Black on a dark mineral, as biotite is, needs an edge: a grey that stands out from it and from white.
-    const render::Colour& colour = crack_classes()[k].colour;
-    if (std::max({colour.red, colour.green, colour.blue}) < 0.1) trace({0.56, 0.56, 0.56}, width + 1.6);
-    trace(colour, width);
+    traces.push_back({{{x - half * along_x, 0, z - half * along_z}, {x + half * along_x, 0, z + half * along_z}},
+                      crack_classes()[k].colour,
+                      width,
+                      render::Line::solid,
+                      true});
   }
   return traces;
 }
@@ -460,14 +467,14 @@ render::Chart load_curves(const std::vector<SeriesCase>& cases, const CurveOf& o
 std::string reading_of(const dem::Record& record, const StudyResult& study) {
   const dem::Scenario& s = *study.scenario;
   std::vector<std::string> readings;
-  if (const double scale = record.number("seed_scale"); scale != s.real("texture.seed_scale"))
-    readings.push_back("seeds × " + shortest(scale));
-  if (const std::string growth = record.text("growth"); growth != s.text("texture.growth"))
-    readings.push_back("growth by " + words(growth));
-  if (const std::string between = record.text("between"); between != s.text("interaction.between"))
-    readings.push_back("coefficients between " + (between == "grains" ? std::string("all grains") : "unlike minerals"));
-  if (const double pressure = record.number("pressure_ratio"); pressure != s.real("packing.pressure_ratio"))
-    readings.push_back("packing pressure " + shortest(pressure));
+  const auto add = [&](const dem::Parameter& one, const auto& value, const auto& usual) {
+    if (value != usual) readings.push_back(parameter_words(one, value));
+  };
+  using namespace parameter;
+  add(seed_scale, record.number(seed_scale.id), s.real(seed_scale.key));
+  add(growth, record.text(growth.id), s.text(growth.key));
+  add(between, record.text(between.id), s.text(between.key));
+  add(pressure_ratio, record.number(pressure_ratio.id), s.real(pressure_ratio.key));
   return joined(readings, ", ");
 }
 
