@@ -13,13 +13,13 @@ using dem::quantity::measured;
 
 inline constexpr Quantity peak_differential_stress{
     .id = "peak_differential_stress",
-    .name = "Largest differential stress by the end of the run",
+    .name = "Largest differential stress of the walls by the end of the run",
     .symbol = "Δσ",
     .unit = "k",
     .meaning =
         "Largest |σ_xx − σ_yy| on the walls, before the breaks of its load step, in elastic constants k. It is a peak "
         "where the run ends a quarter below it or more.",
-    .peak_name = "Peak differential stress"};
+    .peak_name = "Peak differential stress of the walls"};
 inline constexpr Quantity strain_at_peak{.id = "strain_at_peak",
                                          .name = "Strain at the largest differential stress",
                                          .shown = "%",
@@ -43,15 +43,25 @@ inline constexpr Quantity final_strain{.id = "final_strain",
                                        .factor = 100,
                                        .kind = QuantityKind::diagnostic,
                                        .meaning = "Where the run ended."};
+/// What breaks in a sheet is a spring; elsewhere it is a bond, and a crack.
+constexpr Quantity of_springs(const Quantity& cracks, std::string_view name, std::string_view meaning) {
+  Quantity quantity = measured(cracks, "", meaning);
+  quantity.name = name;
+  return quantity;
+}
 inline constexpr Quantity cracks_intra_tension =
-    measured(dem::quantity::cracks_intra_tension, "", "Broken springs inside grains.");
+    of_springs(dem::quantity::cracks_intra_tension, "Broken springs inside grains", "In tension, as all that break.");
 inline constexpr Quantity cracks_inter_tension =
-    measured(dem::quantity::cracks_inter_tension, "", "Broken springs between grains.");
-inline constexpr Quantity inter_grain_crack_share{.id = "inter_grain_crack_share",
-                                                  .name = "Inter-grain share of cracks",
-                                                  .shown = "%",
-                                                  .factor = 100,
-                                                  .meaning = "Broken springs between grains over all broken ones."};
+    of_springs(dem::quantity::cracks_inter_tension, "Broken springs between grains",
+               "In tension, as all that break; those at the edges of a layer are among them.");
+inline constexpr Quantity inter_grain_crack_share{
+    .id = "inter_grain_crack_share",
+    .name = "Inter-grain share of broken springs",
+    .shown = "%",
+    .factor = 100,
+    .meaning =
+        "Broken springs between grains, those at the edges of a layer among "
+        "them, over all broken ones."};
 inline constexpr Quantity most_breaks_in_a_step{.id = "most_breaks_in_a_step",
                                                 .name = "Most springs broken in one load step",
                                                 .kind = QuantityKind::count,
@@ -59,7 +69,7 @@ inline constexpr Quantity most_breaks_in_a_step{.id = "most_breaks_in_a_step",
                                                 .meaning = "How abruptly the sheet fails."};
 inline constexpr Quantity worst_step_share{
     .id = "worst_step_share",
-    .name = "Share of the breaks in the worst step",
+    .name = "Largest share of the breaks in one load step",
     .shown = "%",
     .factor = 100,
     .meaning = "The most springs that break in one load step over all that break."};
@@ -105,9 +115,11 @@ inline constexpr Quantity crossing_fractures{
     .kind = QuantityKind::count,
     .of_size = true,
     .meaning = "Fractures whose springs inside the layer reach across four fifths of it."};
-inline constexpr Quantity spacing_over_thickness{.id = "spacing_over_thickness",
-                                                 .name = "Spacing of fractures over the thickness of the layer",
-                                                 .meaning = "Mean distance between neighbours."};
+inline constexpr Quantity spacing_over_thickness{
+    .id = "spacing_over_thickness",
+    .name = "Mean spacing of fractures",
+    .unit = "layer thicknesses",
+    .meaning = "Mean distance between neighbours that cross the layer, over its thickness."};
 inline constexpr Quantity spacing_scatter{.id = "spacing_scatter",
                                           .name = "Scatter of the spacing",
                                           .shown = "%",
@@ -137,7 +149,7 @@ inline constexpr Quantity energy_residual =
              "Work that is neither elastic energy nor released by breaking or jumps, over the work.");
 inline constexpr Quantity unbalanced_force{.id = "unbalanced_force",
                                            .name = "Largest unbalanced over largest spring force",
-                                           .digits = 2,
+                                           .digits = 4,
                                            .kind = QuantityKind::diagnostic,
                                            .meaning = "The worst after any relaxation."};
 inline constexpr Quantity load_steps{
@@ -179,7 +191,8 @@ inline constexpr Quantity settled{.id = "solver.settled",
                                   .meaning = "Times that the worst places of a relaxation were let settle."};
 inline constexpr Quantity particles = measured(dem::quantity::particles, "", "Particles of the sheet.");
 inline constexpr Quantity contacts = measured(dem::quantity::contacts, "", "Springs of the sheet at the start.");
-inline constexpr Quantity grains = measured(dem::quantity::grains, "", "Grains of the map.");
+inline constexpr Quantity grains =
+    measured(dem::quantity::grains, "", "Grains of the map; the matrix above a layer and that below it are two.");
 
 inline constexpr Quantity most_springs{.id = "most_springs",
                                        .name = "Most springs of a particle",
@@ -201,7 +214,6 @@ inline constexpr Quantity boundary_stiffness_error{
 inline constexpr Quantity threshold_departure{
     .id = "threshold_departure",
     .name = "Thresholds off a linear distribution",
-    .digits = 2,
     .kind = QuantityKind::diagnostic,
     .meaning =
         "Largest distance of the distribution function of the thresholds inside grains, without the factors of "
@@ -209,7 +221,6 @@ inline constexpr Quantity threshold_departure{
 inline constexpr Quantity stiffness_departure{
     .id = "stiffness_departure",
     .name = "Elastic constants of the grains off a Gauss distribution",
-    .digits = 2,
     .kind = QuantityKind::diagnostic,
     .meaning =
         "Largest distance of the distribution function of the grains’ constants, without the factors of rules, from "

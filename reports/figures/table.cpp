@@ -76,7 +76,7 @@ std::span<const Figure> figures() {
       {"bending_test", "Three-point bending", "", "grain_texture", texture::bending_test},
       {"half_disc_test", "Bending of half discs", "", "grain_texture", texture::half_disc_test},
       {"direct_shear_test", "Direct shear", "", "grain_texture", texture::direct_shear_test},
-      {"direct_shear_envelope", "Mohr-Coulomb lines of direct shear", "", "grain_texture",
+      {"direct_shear_envelope", "Mohr–Coulomb fits of direct shear", "", "grain_texture",
        texture::direct_shear_envelope},
       {"unloading_loops_test", "Loops of unloading and damage", "", "grain_texture", texture::unloading_loops_test},
       {"energy_compression", "Where the energy went: compression", "", "grain_texture", texture::energy_compression},
@@ -118,11 +118,11 @@ std::span<const Figure> figures() {
       {"sheet_elle", "Grains under the particles", "Model description, Fig. 4", "sheet", sheet::elle_layer},
       {"sheet_fracture_maps", "Fractures", "", "sheet", sheet::fracture_maps},
       {"sheet_stress_fields", "Mean and differential stress", "", "sheet", sheet::stress_fields},
-      {"sheet_stress_strain", "Stress, strain and broken springs", "", "sheet", sheet::stress_strain},
+      {"sheet_stress_strain", "Stress and broken springs", "", "sheet", sheet::stress_strain},
       {"sheet_spacing", "Spacing of fractures through the layer", "", "sheet", sheet::spacing},
       {"sheet_rose", "Which way fractures run", "", "sheet", sheet::rose_of_fractures},
       {"sheet_radial", "Fractures around growing grains", "", "sheet", sheet::radial_fractures},
-      {"sheet_solvers", "Converged and historical solver", "", "sheet", sheet::solvers},
+      {"sheet_solvers", "Converged and historical solvers", "", "sheet", sheet::solvers},
       {"sheet_energy", "Energy", "", "sheet", sheet::energy},
   };
   return table;

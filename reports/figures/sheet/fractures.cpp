@@ -43,13 +43,18 @@ Panel map_panel(const StudyResult& study, const dem::Record& r, double strain, i
           .whole_width = per_row == 1};
 }
 
-// Angles (radians, 0 ... pi) as a rose over the whole circle, weights equal.
-std::string rose(const std::vector<double>& angles, double reference, std::string_view reference_words, int width) {
-  constexpr int bins = 18;
+constexpr int bins = 18;  // of a rose, over half a circle
+std::array<int, bins> binned(const std::vector<double>& angles) {
   std::array<int, bins> n{};
   for (const double a : angles) ++n[static_cast<std::size_t>(a / std::numbers::pi * bins) % bins];
-  const int most = std::max(1, *std::max_element(n.begin(), n.end()));
-  const double c = 0.5 * width, r = 0.4 * width, outside = r + 23;
+  return n;
+}
+
+// Angles (radians, 0 ... pi) as a rose over the whole circle, weights equal.
+std::string rose(const std::vector<double>& angles, double reference, std::string_view reference_words, int width) {
+  const std::array<int, bins> n = binned(angles);
+  const int most = std::max(1, *std::ranges::max_element(n));
+  const double c = 0.5 * width, outside = 0.48 * width, r = outside - 14;
   std::string body;
   for (const double share : {0.5, 1.0}) {
     body += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"none\" stroke=\"#8a8a8a\"/>", c, c, share * r);
@@ -66,19 +71,21 @@ std::string rose(const std::vector<double>& angles, double reference, std::strin
     }
   }
   const double ux = std::cos(reference), uy = std::sin(reference);
-  body += fmt::format(
-      "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#bd4300\" stroke-width=\"2\" "
-      "stroke-dasharray=\"7 4\"/>",
-      c - outside * ux, c + outside * uy, c + outside * ux, c - outside * uy);
-  body += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" font-size=\"12.5\" fill=\"#a04000\">{}</text>", c,
-                      width + 8, reference_words);
-  body += fmt::format(
-      "<text x=\"{}\" y=\"{:.0f}\" text-anchor=\"end\" font-size=\"12\" fill=\"#444\">outer circle: {} springs</text>",
-      width - 2, 0.16 * width, most);
+  constexpr std::string_view dashed = "stroke=\"#bd4300\" stroke-width=\"2\" stroke-dasharray=\"7 4\"";
+  body += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>", c - outside * ux,
+                      c + outside * uy, c + outside * ux, c - outside * uy, dashed);
+  // What the dashed line is, beside a piece of it.
+  const double below = c + outside + 18, sample = 22,
+               wide = sample + 6 + 6.6 * static_cast<double>(reference_words.size());
+  const double start = std::max(0.0, c - wide / 2);
+  body += fmt::format("<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{2:.1f}\" y2=\"{1:.1f}\" {3}/>", start, below - 4,
+                      start + sample, dashed);
+  body += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"12\" fill=\"#a04000\">{}</text>", start + sample + 6,
+                      below, reference_words);
   return fmt::format(
-             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1:.0f}\" width=\"{0}\" height=\"{1:.0f}\" "
              "font-family=\"DejaVu Sans\">",
-             width, width + 20) +
+             width, below + 8) +
          body + "</svg>";
 }
 
@@ -120,64 +127,38 @@ std::vector<double> off_radial(const dem::Record& r) {
 
 namespace {
 
-/// One of the records that a verdict on fractures is about: what is found of it, and why where that is not as expected.
-struct Judged {
-  Agreement agreement = Agreement::agrees;
-  std::string why;
-};
-
-/// A share that should be more than half.
-Judged judge_share(double share, double chance, const std::string& what) {
-  const Agreement agreement = mainly(share, chance);
-  if (agreement == Agreement::agrees) return {};
-  return {agreement,
-          fmt::format("{} {}, {}", percent(share, 0), what,
-                      agreement == Agreement::disagrees ? "no more than by chance (" + percent(chance, 0) + ")"
-                                                        : "between chance (" + percent(chance, 0) + ") and half")};
-}
-
-/// Under pure shear: along boundaries, and along the compression.
-Judged judge_pure_shear(const dem::Record& r) {
-  Judged boundaries = judge_share(between_share(r), between_by_chance(r), "of the breaks lie at boundaries");
-  if (!r.has(quantity::along_compression_share)) return boundaries;
-  const Judged along =
-      judge_share(r.value(quantity::along_compression_share), third, "of the trends lie along the compression");
-  if (along.agreement == Agreement::agrees) return boundaries;
-  if (boundaries.agreement == Agreement::agrees) return along;
-  if (along.agreement == Agreement::disagrees) boundaries.agreement = Agreement::disagrees;
-  boundaries.why += "; " + along.why;
-  return boundaries;
-}
-
-/// Whether all that converged are as expected, and a sentence on those that are not.
-void judge_spreads(FigureContent& content, const StudyResult& study) {
-  std::vector<std::string> off;
+/// Whether the breaks of all that converged lie at boundaries mainly, and a sentence on those whose do not.
+void judge_boundaries(FigureContent& content, const std::vector<const dem::Record*>& runs, const StudyResult& study) {
   std::optional<Agreement> all;
-  for (const dem::Record* r : records_of(study)) {
-    if (r->text("solver") != "converged" || !r->has(quantity::onset_strain)) continue;
-    const Judged one = judge_pure_shear(*r);
-    if (!one.why.empty()) off.push_back(label_of(*r, study) + ": " + one.why);
-    all = !all || *all == one.agreement ? one.agreement : Agreement::undecided;
+  for (const dem::Record* r : runs) {
+    const double share = between_share(*r), chance = between_by_chance(*r);
+    const Agreement one = mainly(share, chance);
+    all = !all || *all == one ? one : Agreement::undecided;
+    if (one == Agreement::agrees) continue;
+    content.finding +=
+        fmt::format(" {}: the share of {} is {}.", capital(label_of(*r, study)), percent(share, 0),
+                    one == Agreement::disagrees ? "no more than by chance" : "above chance but below half");
   }
   content.agreement = all;
-  if (!off.empty()) content.finding += " " + capital(joined(off, "; ")) + ".";
 }
 
-/// Of all that converged: how many springs broke, how many of them at boundaries, and when the first one did.
-std::string shares_said(const StudyResult& study) {
-  std::vector<std::string> broke, shares, first;
-  for (const dem::Record* r : records_of(study)) {
-    if (r->text("solver") != "converged" || !r->has(quantity::onset_strain)) continue;
-    const std::string label = label_of(*r, study), where = label == "this run" ? "" : " (" + label + ")";
-    broke.push_back(count(static_cast<double>(r->table("cracks").rows())) + where);
-    shares.push_back(percent(between_share(*r), 0) + where);
-    first.push_back(number(100 * r->value(quantity::onset_strain), 3) + " %" + where);
+/// How many springs broke in each, and how many of them at boundaries.
+std::string shares_said(const std::vector<const dem::Record*>& runs, const StudyResult& study) {
+  std::vector<std::string> shares;
+  for (const dem::Record* r : runs) {
+    const std::string label = label_of(*r, study);
+    shares.push_back(percent(between_share(*r), 0) + " of " + (shares.empty() ? "the " : "") +
+                     count(static_cast<double>(r->table("cracks").rows())) + (shares.empty() ? " broken springs" : "") +
+                     (label == "this run" ? "" : " (" + label + ")"));
   }
-  return fmt::format(
-      "{} springs broke. Of these, {} lie at grain boundaries, where by chance {} would. The first broke at a strain "
-      "of "
-      "{}.",
-      listed(broke), listed(shares), percent(between_by_chance(*main_record(study)), 0), listed(first));
+  return fmt::format("{} lie at grain boundaries; by chance {} would.", listed(shares),
+                     percent(between_by_chance(*runs.front()), 0));
+}
+
+/// "30 trends": of the broken springs whose fracture is long enough to have one.
+std::string trends_of(const dem::Record& r) {
+  const auto n = known(r.table("cracks").real("trend")).size();
+  return fmt::format("{} {}", count(static_cast<double>(n)), n == 1 ? "trend" : "trends");
 }
 
 }  // namespace
@@ -187,13 +168,10 @@ FigureContent fracture_maps(const StudyResult& study) {
   const dem::Record* r = main_record(study);
   if (!r) return content;
   const std::string test = r->text("test");
-  content.expected = true;
-  content.statement =
-      test == "pure_shear"  ? "Boundaries are half as strong as grains: under pure shear fractures run mainly along "
-                              "them, parallel to the compression."
-      : test == "growth"    ? "Fractures open radially around grains that increase in volume."
-      : test == "extension" ? "The stiff layer breaks by tension fractures that cross it."
-                            : "Springs break only in tension, so that fractures open parallel to the compression.";
+  content.expected = true;  // which way fractures run has figures of its own
+  if (test == "pure_shear")
+    content.statement = "Boundaries are half as strong as grains: under pure shear fractures run mainly along them.";
+  if (test == "extension") content.statement = "The stiff layer breaks by tension fractures that cross it.";
   std::vector<std::pair<const dem::Record*, double>> maps;
   for (const double strain : strains_of(*r)) maps.emplace_back(r, strain);
   for (const dem::Record* other : records_of(study)) {  // how the others end; the historical sweep has its own figure
@@ -204,11 +182,15 @@ FigureContent fracture_maps(const StudyResult& study) {
   const int per_row = layered(*r) ? 1 : maps.size() % 3 == 0 ? 3 : 2;
   for (const auto& [record, strain] : maps) content.panels.push_back(map_panel(study, *record, strain, per_row));
   if (test == "pure_shear") {
-    const bool any = std::ranges::any_of(records_of(study), [](const dem::Record* one) {
-      return one->text("solver") == "converged" && one->has(quantity::onset_strain);
-    });
-    content.finding = any ? shares_said(study) : "No spring broke.";
-    judge_spreads(content, study);
+    std::vector<const dem::Record*> runs;
+    bool historical = false;
+    for (const dem::Record* one : records_of(study)) {
+      historical = historical || one->text("solver") == "historical";
+      if (one->text("solver") == "converged" && one->has(quantity::onset_strain)) runs.push_back(one);
+    }
+    content.finding = runs.empty() ? "No spring broke." : shares_said(runs, study);
+    if (!runs.empty()) judge_boundaries(content, runs, study);
+    if (historical) content.finding += " The historical run is in “Converged and historical solvers”.";
     return content;
   }
   if (!r->has(quantity::onset_strain)) {
@@ -224,25 +206,20 @@ FigureContent fracture_maps(const StudyResult& study) {
     content.finding =
         fmt::format("{}, {} of them at grain boundaries; {}", broke, percent(between_share(*r), 0), first);
   }
-  if (test == "extension" && r->has(quantity::crossing_fractures)) {
-    const double through = r->value(quantity::crossing_fractures);
+  const double through = r->value_or_nan(quantity::crossing_fractures);
+  if (test == "extension" && std::isfinite(through))
     content.agreement = through > 0 ? Agreement::agrees : Agreement::undecided;
-    content.finding += fmt::format("; {} the layer, over four fifths of its rows or more.",
-                                   through == 0   ? "no fracture crosses"
-                                   : through == 1 ? "one fracture crosses"
-                                                  : count(through) + " fractures cross");
-    return content;
+  if (std::isfinite(through)) {
+    content.finding +=
+        fmt::format("; {} the layer{}",
+                    through == 0   ? "no fracture crosses"
+                    : through == 1 ? "one fracture crosses"
+                                   : count(through) + " fractures cross",
+                    through > 0 ? ": connected broken springs over four fifths of its rows or more" : "");
   }
   content.finding += ".";
-  const auto along = [&](const dem::Quantity& share, const char* what) {
-    if (!r->has(share)) return;
-    const Judged judged = judge_share(r->value(share), third, what);
-    content.agreement = judged.agreement;
-    content.finding += " " + (judged.why.empty() ? percent(r->value(share), 0) + " " + what : judged.why) + ".";
-  };
-  if (test == "growth") along(quantity::radial_share, "of the trends lie within 30° of the radius");
-  if (test == "compression")
-    along(quantity::along_compression_share, "of the trends lie within 30° of the compression");
+  if (layered(*r) && !uniform_layer(*r))
+    content.finding += " In tables, springs at the layer’s edges count as inter-grain ones.";
   return content;
 }
 
@@ -252,38 +229,39 @@ FigureContent rose_of_fractures(const StudyResult& study) {
   double least = 1, most = 0;
   std::vector<const dem::Record*> shown;
   for (const dem::Record* r : records_of(study)) {
-    if (r->text("solver") == "converged" && r->has(quantity::along_compression_share)) shown.push_back(r);
+    if (r->has(quantity::along_compression_share) && !known(r->table("cracks").real("trend")).empty())
+      shown.push_back(r);
   }
   if (shown.empty()) return content;
   content.expected = true;
-  content.statement = "Fractures run parallel to the compression.";
-  const int per_row = shown.size() == 3 ? 3 : 2;  // three beside each other, so that none stands alone
+  content.statement =
+      "Springs break only in tension, so that fractures run parallel to the compression and open across it.";
+  const int per_row = std::clamp(static_cast<int>(shown.size()), 2, 4);  // beside each other, so that none stands alone
   for (const dem::Record* r : shown) {
     const auto angles = known(r->table("cracks").real("trend"));
-    if (angles.empty()) continue;
     const double share = r->value_or_nan(quantity::along_compression_share);
     const std::string label = label_of(*r, study);
+    const bool alone = label == "this run";
     content.panels.push_back(
         {.id = r->case_id,
-         .caption = fmt::format(
-             "Trend of the fracture at each of {} broken springs{}. The area of a sector is its count; the outer "
-             "circle is that of the fullest sector.",
-             count(static_cast<double>(angles.size())), label == "this run" ? "" : ", " + label),
+         .caption = fmt::format("{}{}; outer circle: {} springs.", alone ? "" : capital(label) + ": ", trends_of(*r),
+                                std::ranges::max(binned(angles))),
          .alt = fmt::format("{} of the trends lie within 30° of the compression.", percent(share, 0)),
          .content = rose(angles, r->text("test") == "compression" ? 0.0 : std::numbers::pi / 2,
                          "direction of compression", render::page_width / per_row),
          .per_row = per_row});
-    said.push_back(percent(share, 0) + (label == "this run" ? "" : " (" + label + ")"));
+    said.push_back(percent(share, 0) + " of " + trends_of(*r) + (alone ? "" : " (" + label + ")"));
     least = std::min(least, share);
     most = std::max(most, share);
   }
-  if (!said.empty()) {
-    content.finding = listed(said) + " of the trends lie within 30° of the compression (by chance a third).";
-    const Agreement low = mainly(least, third), high = mainly(most, third);
-    content.agreement = low == high ? low : Agreement::undecided;
-    if (content.agreement == Agreement::undecided)
-      content.finding += " Agreement takes half of them or more in every run, disagreement a third or less.";
-  }
+  content.finding = fmt::format(
+      "{} lie within 30° of the compression (by chance a third). The area of a sector is the number of its broken "
+      "springs; the outer circle is that of the fullest sector, the inner one that of a quarter as many.",
+      listed(said));
+  const Agreement low = mainly(least, third), high = mainly(most, third);
+  content.agreement = low == high ? low : Agreement::undecided;
+  if (content.agreement == Agreement::undecided)
+    content.finding += " Agreement takes half of them or more in every run, disagreement a third or less.";
   return content;
 }
 
@@ -364,8 +342,7 @@ FigureContent spacing(const StudyResult& study) {
                               .content = chart,
                               .per_row = 2});
   };
-  panel("number", "crossing_fractures", "Fractures through the layer",
-        "Fractures that reach across four fifths of the layer's rows or more.");
+  panel("number", "crossing_fractures", "Fractures through the layer", "Fractures that cross the layer.");
   panel("spacing", "spacing_over_thickness", "Mean spacing over layer thickness", "Their mean spacing.");
   content.finding =
       fmt::format("{} the layer at {}", last == 1 ? "One fracture crosses" : count(last) + " fractures cross",
@@ -375,7 +352,7 @@ FigureContent spacing(const StudyResult& study) {
                                    number(r->value(quantity::spacing_over_thickness), 3));
   }
   if (r->has(quantity::spacing_scatter)) {
-    content.finding += fmt::format(", with a scatter of {} of it (as many fractures placed at random: {})",
+    content.finding += fmt::format(", with a standard deviation of {} of the mean ({} for as many placed at random)",
                                    percent(r->value(quantity::spacing_scatter), 0),
                                    percent(r->value(quantity::spacing_scatter_chance), 0));
   }
@@ -386,8 +363,7 @@ FigureContent spacing(const StudyResult& study) {
     content.agreement = spacing.back() >= spacing.front() ? Agreement::disagrees
                         : spacing.back() <= about         ? Agreement::agrees
                                                           : Agreement::undecided;
-    if (content.agreement == Agreement::undecided)
-      content.finding += " The spacing falls, but has not come down to the thickness.";
+    if (content.agreement == Agreement::undecided) content.finding += " The spacing falls, but not to one thickness.";
   }
   return content;
 }

@@ -27,6 +27,28 @@ struct Window {
   int c0, c1, r0, r1;
 };
 
+/// The part of a line that lies within bounds (Liang and Barsky): false where none does.
+bool clip(std::array<double, 2>& a, std::array<double, 2>& b, const std::array<double, 2>& low,
+          const std::array<double, 2>& high) {
+  double from = 0, to = 1;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double way = b[k] - a[k];
+    if (way == 0) {
+      if (a[k] < low[k] || a[k] > high[k]) return false;
+      continue;
+    }
+    const double one = (low[k] - a[k]) / way, other = (high[k] - a[k]) / way;
+    from = std::max(from, std::min(one, other)), to = std::min(to, std::max(one, other));
+  }
+  if (from > to) return false;
+  const std::array<double, 2> start = a;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double way = b[k] - start[k];
+    a[k] = start[k] + from * way, b[k] = start[k] + to * way;
+  }
+  return true;
+}
+
 template <class Fill>
 Drawing draw_window(const dem::Record& r, const Window& w, double width, bool outlines, Fill fill) {
   const Layout l = layout_of(r);
@@ -52,14 +74,20 @@ Drawing draw_window(const dem::Record& r, const Window& w, double width, bool ou
       }
     }
   }
-  if (outlines) {
+  if (outlines) {  // as far as the particles reach
+    const std::array<double, 2> low{x(w.c0, w.r0) - l.radius, y(w.r0) - l.radius},
+        high{x(w.c1 - 1, w.r0) + 2 * l.radius, y(w.r1 - 1) + l.radius};
+    const double node = 0.35 * l.radius;
     for (const auto& cell : outlines_of(r)) {
       for (std::size_t k = 0; k < cell.size(); ++k) {
-        const auto& a = cell[k];
-        const auto& b = cell[(k + 1) % cell.size()];
-        d.line(a[0], a[1], b[0], b[1], "#c03020", 3);
+        auto a = cell[k], b = cell[(k + 1) % cell.size()];
+        if (clip(a, b, low, high)) d.line(a[0], a[1], b[0], b[1], "#c03020", 3);
       }
-      for (const auto& a : cell) d.circle(a[0], a[1], 0.35 * l.radius, "#ffffff", "#c03020", 2);
+      for (const auto& a : cell) {
+        const bool whole =
+            a[0] - node > low[0] && a[0] + node < high[0] && a[1] - node > low[1] && a[1] + node < high[1];
+        if (whole) d.circle(a[0], a[1], node, "#ffffff", "#c03020", 2);
+      }
     }
   }
   return d;
@@ -148,12 +176,13 @@ FigureContent box(const StudyResult& study) {
                   count(r->value(quantity::particles)));
   Picture whole;
   render::Spheres spheres;
+  const std::vector<std::string> fills = grain_fills(*r);
   for (std::size_t i = 0; i < p.grain.size(); ++i) {
     spheres.centre.push_back({p.place[2 * i], p.place[2 * i + 1], 0});
     spheres.radius.push_back(l.radius);
     render::Colour colour{0.61, 0.42, 0.24};
     if (!p.fixed[i]) {
-      const std::string fill = grain_fill(static_cast<std::size_t>(p.grain[i]));
+      const std::string& fill = fills.at(static_cast<std::size_t>(p.grain[i]));
       const auto part = [&](std::size_t at) { return std::stoi(fill.substr(at, 2), nullptr, 16) / 255.0; };
       colour = {part(1), part(3), part(5)};
     }
@@ -170,7 +199,9 @@ FigureContent box(const StudyResult& study) {
   whole.legend = {{{0.61, 0.42, 0.24}, "wall particles"}};
   whole.scene.axes = true;
   content.panels.push_back({.id = "whole",
-                            .caption = "The deformation box: particles coloured by grain, walls brown.",
+                            .caption = layered(*r)
+                                           ? "The deformation box: the layer, the matrix (grey) and the walls (brown)."
+                                           : "The deformation box: particles coloured by grain, walls brown.",
                             .alt = fmt::format("A square of {} discs in {} grains within a brown frame.",
                                                count(r->value(quantity::particles)), count(r->value(quantity::grains))),
                             .content = whole,
@@ -186,12 +217,16 @@ FigureContent flow(const StudyResult& study) {
   const dem::Record* r = main_record(study);
   const bool growth = r && r->text("test") == "growth";
   std::string body;
-  const auto box_at = [&](double x, double y, double w, std::string_view a, std::string_view b, std::string_view fill) {
+  const auto box_at = [&](double x, double y, double w, const std::vector<std::string_view>& lines,
+                          std::string_view fill) {
     body += fmt::format(
-        "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"46\" rx=\"7\" fill=\"{}\" stroke=\"#333\" stroke-width=\"1.5\"/>"
-        "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text><text x=\"{}\" y=\"{}\" "
-        "text-anchor=\"middle\">{}</text>",
-        x, y, w, fill, x + w / 2, y + 19, a, x + w / 2, y + 37, b);
+        "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"7\" fill=\"{}\" stroke=\"#333\" "
+        "stroke-width=\"1.5\"/>",
+        x, y, w, 10 + 17 * lines.size(), fill);
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      body += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>", x + w / 2, y + 18 + 17.0 * k,
+                          lines[k]);
+    }
   };
   const auto arrow = [&](double x0, double y0, double x1, double y1, bool tip = true) {
     body += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" stroke=\"#333\" stroke-width=\"1.6\"/>", x0, y0,
@@ -201,42 +236,52 @@ FigureContent flow(const StudyResult& study) {
     body += fmt::format("<polygon points=\"{},{} {},{} {},{}\" fill=\"#333\"/>", x1, y1, x1 - 9 * ux - 5 * uy,
                         y1 - 9 * uy - 5 * ux, x1 - 9 * ux + 5 * uy, y1 - 9 * uy + 5 * ux);
   };
-  box_at(170, 4, 260, "Grain map and sheet", "stiffness and strength drawn", "#eef2f6");
-  box_at(170, 70, 260, growth ? "Grow the marked grains" : "Move walls and particles",
-         growth ? "by a step or part of one, walls held" : "affinely, by a step or part of one", "#fbf3dd");
-  box_at(170, 136, 260, "Relax to equilibrium", "springs and contacts", "#e4efe6");
-  box_at(170, 202, 260, "A spring over its strength?", "largest tension over threshold", "#eef2f6");
-  box_at(490, 169, 190, "Break that one spring", "keep its contact", "#f6dfd5");
-  box_at(170, 268, 260, "Record stress, energy, cracks", "last step? then end", "#eef2f6");
-  for (const int below : {50, 116, 182, 248}) arrow(300, below, 300, below + 19);
-  arrow(430, 225, 585, 225, false);
-  arrow(585, 225, 585, 216);
-  arrow(585, 169, 585, 154, false);
-  arrow(585, 154, 431, 154);
-  arrow(170, 291, 110, 291, false);
-  arrow(110, 291, 110, 93, false);
-  arrow(110, 93, 169, 93);
-  body += "<text x=\"505\" y=\"242\" text-anchor=\"middle\" font-size=\"12\">yes</text>";
-  body += "<text x=\"316\" y=\"262\" font-size=\"12\">no</text>";
-  body +=
-      "<text x=\"98\" y=\"192\" text-anchor=\"middle\" font-size=\"12\" transform=\"rotate(-90 98 192)\">next "
-      "step</text>";
+  const auto word = [&](double x, double y, std::string_view text) {
+    body += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" font-size=\"12\">{}</text>", x, y, text);
+  };
+  // As wide as half a page: it is read on a narrow screen as well.
+  constexpr double left = 26, wide = 244, right = left + wide, middle = left + wide / 2;
+  box_at(left, 2, wide, {"Grain map and sheet", "stiffness and strength drawn"}, "#eef2f6");
+  // Springs break when a load step is complete, not after its parts.
+  box_at(left, 66, wide,
+         {growth ? "One load step: grow the marked grains" : "One load step: move all particles",
+          growth ? "walls held; once springs are broken" : "affinely; once springs are broken",
+          "in parts, each brought to equilibrium"},
+         "#fbf3dd");
+  box_at(left, 147, wide, {"Relax to equilibrium", "springs and contacts"}, "#e4efe6");
+  box_at(left, 211, wide, {"A spring over its strength?", "largest tension over threshold"}, "#eef2f6");
+  box_at(left, 275, wide, {"Record stress, energy, breaks", "last load step?"}, "#eef2f6");
+  box_at(296, 171, 100, {"Break that", "spring, keep", "its contact"}, "#f6dfd5");
+  box_at(316, 284, 60, {"End"}, "#eef2f6");
+  for (const auto& [from, to] : {std::pair{46, 65}, {127, 146}, {191, 210}, {255, 274}})
+    arrow(middle, from, middle, to);
+  word(middle + 14, 269, "no");
+  arrow(right, 244, 346, 244, false);
+  arrow(346, 244, 346, 233);
+  word(290, 258, "yes");
+  arrow(346, 171, 346, 160, false);
+  arrow(346, 160, right + 1, 160);
+  arrow(right, 297, 315, 297);
+  word(292, 291, "yes");
+  arrow(left, 297, 8, 297, false);
+  arrow(8, 297, 8, 96, false);
+  arrow(8, 96, left - 1, 96);
+  word(17, 313, "no");
   content.panels.push_back(
       {.id = "",
        .caption = "The order of work.",
        .alt =
            "From the grain map to a load step, relaxation, a test of the springs, breaking of one spring and back to "
-           "relaxation until none is over its strength; then the next step.",
-       .content = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-50 0 800 320\" width=\"800\" height=\"320\" "
-                  "font-family=\"DejaVu Sans\" font-size=\"12.5\">" +
+           "relaxation until none is over its strength; then the next step, or the end.",
+       .content = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 400 322\" width=\"400\" height=\"322\" "
+                  "font-family=\"DejaVu Sans\" font-size=\"12\">" +
                   body + "</svg>",
-       .per_row = 1,
-       .whole_width = true});
+       .per_row = 2});
   if (r) {
     content.finding = fmt::format(
-        "This run: {} load steps; {} relaxations, one after each part of a load step and each break; {} broken "
+        "{}: {} load steps; {} relaxations, one after each part of a load step and each break; {} broken "
         "springs.",
-        count(r->value(quantity::load_steps)), count(r->value(quantity::relaxations)),
+        capital(label_of(*r, study)), count(r->value(quantity::load_steps)), count(r->value(quantity::relaxations)),
         count(r->value(quantity::cracks_intra_tension) + r->value(quantity::cracks_inter_tension)));
   }
   return content;
@@ -261,8 +306,9 @@ FigureContent elle_layer(const StudyResult& study) {
   const int n = std::min(22, l.columns - 2), m = std::min(18, l.rows - 2);
   const int c = std::clamp(static_cast<int>(cx * l.columns) - n / 2, 0, l.columns - n);
   const int row = std::clamp(static_cast<int>(cy / l.height * l.rows) - m / 2, 0, l.rows - m) / 2 * 2;
+  const std::vector<std::string> fills = grain_fills(*r);
   Drawing d = draw_window(*r, {c, c + n, row, row + m}, render::column_width, true,
-                          [&](std::size_t i) { return grain_fill(static_cast<std::size_t>(p.grain[i])); });
+                          [&](std::size_t i) { return fills.at(static_cast<std::size_t>(p.grain[i])); });
   content.panels.push_back(
       {.id = "",
        .caption = "Part of the sheet: outlines of grains (nodes and segments) over the particles that they hold.",
@@ -270,10 +316,10 @@ FigureContent elle_layer(const StudyResult& study) {
        .content = d.finish_with_key({{"#c03020", "outlines of grains, with their nodes", true}}),
        .per_row = 2});
   const double grains = r->value(quantity::grains);
-  const std::string holders =
-      uniform_layer(*r) ? "The layer and the matrix on both sides of it"
-      : layered(*r)     ? "The " + count(grains - 2) + " grains of the layer and the matrix on both sides of it"
-                        : count(grains) + " grains";
+  const std::string matrix = " and the matrix on both sides of it (" + count(grains) + " grains of the map)";
+  const std::string holders = uniform_layer(*r) ? "The layer" + matrix
+                              : layered(*r)     ? "The " + count(grains - 2) + " grains of the layer" + matrix
+                                                : count(grains) + " grains";
   const long all = static_cast<long>(p.grain.size()), inside = inside_their_grain(*r);
   const long unsure = std::max(2L, all / 100);  // as many as a map may leave out
   content.agreement = inside >= all - unsure ? Agreement::agrees : Agreement::disagrees;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "reports/text.h"
 
@@ -84,15 +85,20 @@ const dem::Record* main_record(const StudyResult& study) {
 }
 
 std::string label_of(const dem::Record& record, const StudyResult& study) {
-  std::string label;
-  for (const dem::Record* other : records_of(study)) {
-    if (other->number("spread") != record.number("spread")) {
-      label = fmt::format("spread {:g}", record.number("spread"));
-      break;
-    }
-  }
-  if (record.text("solver") == "historical") label += std::string(label.empty() ? "" : ", ") + "historical";
-  return label.empty() ? "this run" : label;
+  const auto all = records_of(study);
+  const auto differs = [&](auto of) {
+    return std::ranges::any_of(all, [&](const dem::Record* other) { return of(*other) != of(record); });
+  };
+  const double spread = record.number("spread");
+  std::vector<std::string> parts;
+  if (differs([](const dem::Record& r) { return r.number("spread"); }))
+    parts.push_back(fmt::format("spread {:g}", spread));
+  // The converged solver is named beside the other one alone: of the same sheet.
+  const bool both = std::ranges::any_of(all, [&](const dem::Record* other) {
+    return other->number("spread") == spread && other->text("solver") != record.text("solver");
+  });
+  if (both || record.text("solver") == "historical") parts.push_back(record.text("solver"));
+  return parts.empty() ? "this run" : joined(parts, ", ");
 }
 
 // From the counts, which records made before the result had its present name hold as well.
@@ -168,10 +174,43 @@ std::string Drawing::finish_with_key(const std::vector<KeyItem>& key) {
   return finish(y - height_ + 6);
 }
 
-std::string grain_fill(std::size_t grain) {
-  static constexpr std::array<std::string_view, 6> fills{"#dfe6ee", "#efe6d8", "#e3eee0",
-                                                         "#eee0e6", "#e6e3f0", "#f1eede"};
-  return std::string(fills[(grain * 2654435761U >> 7) % fills.size()]);
+std::vector<std::string> grain_fills(const dem::Record& record) {
+  static constexpr std::array<std::string_view, 8> fills{"#a9c8e8", "#f4cf9a", "#b3d9a6", "#dcb8dc",
+                                                         "#f2e58a", "#9ad6d0", "#eda9a0", "#c9c9c9"};
+  const Layout l = layout_of(record);
+  const auto grain = record.table("particles").integer("grain");
+  std::vector<std::set<std::size_t>> beside(record.table("grains").rows());
+  const auto touch = [&](int i, int j) {
+    const auto a = static_cast<std::size_t>(grain[static_cast<std::size_t>(i)]),
+               b = static_cast<std::size_t>(grain[static_cast<std::size_t>(j)]);
+    if (a != b) beside[a].insert(b), beside[b].insert(a);
+  };
+  for (int row = 0; row < l.rows; ++row) {
+    for (int column = 0; column < l.columns; ++column) {
+      const int at = row * l.columns + column;
+      if (column + 1 < l.columns) touch(at, at + 1);
+      if (row + 1 == l.rows) continue;
+      for (const int above : {column + row % 2 - 1, column + row % 2}) {
+        if (above >= 0 && above < l.columns) touch(at, at + l.columns - column + above);
+      }
+    }
+  }
+  const bool in_matrix = layered(record);
+  std::vector<std::size_t> colour(beside.size(), fills.size());
+  std::vector<std::string> result;
+  for (std::size_t g = 0; g < beside.size(); ++g) {
+    if (in_matrix && !marked(record, g)) {
+      result.emplace_back("#eeeeee");
+      continue;
+    }
+    std::size_t free = 0;
+    while (free + 1 < fills.size() &&
+           std::ranges::any_of(beside[g], [&](std::size_t other) { return colour[other] == free; }))
+      ++free;
+    colour[g] = free;
+    result.emplace_back(fills.at(free));
+  }
+  return result;
 }
 
 std::vector<std::vector<std::array<double, 2>>> outlines_of(const dem::Record& record) {
@@ -188,7 +227,7 @@ std::vector<std::vector<std::array<double, 2>>> outlines_of(const dem::Record& r
 
 bool layered(const dem::Record& record) { return record.table("history").has("crossing_fractures"); }
 
-std::array<double, 2> heights_shown(const dem::Record& record) {
+std::array<double, 2> heights_shown(const dem::Record& record, double beside) {
   const Layout l = layout_of(record);
   if (!layered(record)) return {0, l.height};
   const auto outlines = outlines_of(record);
@@ -197,8 +236,8 @@ std::array<double, 2> heights_shown(const dem::Record& record) {
     if (!marked(record, g)) continue;
     for (const auto& p : outlines[g]) low = std::min(low, p[1]), high = std::max(high, p[1]);
   }
-  const double thickness = high - low;
-  return {std::max(0.0, low - thickness), std::min(l.height, high + thickness)};
+  const double margin = std::min(high - low, beside);
+  return {std::max(0.0, low - margin), std::min(l.height, high + margin)};
 }
 
 std::string fracture_map(const dem::Record& record, double strain, double width) {
@@ -206,13 +245,24 @@ std::string fracture_map(const dem::Record& record, double strain, double width)
   const auto outlines = outlines_of(record);
   const auto [low, high] = heights_shown(record);
   Drawing d(0, low, 1 + l.radius, high, width);
+  const bool strip = layered(record);
+  const double aside = 0.5 * l.radius;  // of outlines_of()
   for (std::size_t g = 0; g < outlines.size(); ++g) {
     const std::string_view fill = marked(record, g) ? marked_fill : std::string_view("#ffffff");
+    if (strip) {  // its map ends with the box: its sides are no outlines, and lie out of sight
+      auto cell = outlines[g];
+      for (auto& p : cell) {
+        if (std::abs(p[0] - aside) < 1e-6) p[0] = -0.1;
+        if (std::abs(p[0] - aside - 1) < 1e-6) p[0] = 1.1;
+      }
+      d.polygon(cell, fill, "#b5b5b5", 0.7);
+      continue;
+    }
     for (const double dx : {-1.0, 0.0, 1.0}) {
       for (const double dy : {-l.height, 0.0, l.height}) {
         const auto image = moved(outlines[g], dx, dy);
         const bool seen = std::any_of(image.begin(), image.end(), [&](const auto& p) {
-          return p[0] > -0.001 && p[0] < 1.001 && p[1] > -0.001 && p[1] < l.height + 0.001;
+          return p[0] > -0.001 && p[0] < 1.001 + l.radius && p[1] > -0.001 && p[1] < l.height + 0.001;
         });
         if (seen) d.polygon(image, fill, "#b5b5b5", 0.7);
       }

@@ -15,7 +15,7 @@ namespace quantity = dem::sheet::quantity;
 /// All records of the study, in report order; the first is the scenario's own.
 std::vector<const dem::Record*> records_of(const StudyResult& study);
 const dem::Record* main_record(const StudyResult& study);
-/// "spread 0.6", "spread 0.6, historical": what sets a case apart from the others of its study.
+/// "spread 0.6", "spread 0.6, historical": what sets a case apart from the others of its study; "this run" alone.
 std::string label_of(const dem::Record& record, const StudyResult& study);
 
 /// The sheet as it was laid: columns, rows and radius, in box widths.
@@ -54,8 +54,8 @@ class Drawing {
   std::string body_;
 };
 
-/// Soft colours for neighbouring grains.
-std::string grain_fill(std::size_t grain);
+/// A colour of each grain, of which no two that touch have the same; pale grey for the matrix of a layer.
+std::vector<std::string> grain_fills(const dem::Record& record);
 /// Fill of grains that grow, or of the layer.
 constexpr std::string_view marked_fill = "#e9d9a8";
 constexpr std::string_view intra_colour = "#bd4300", inter_colour = "#0b3c5d";
@@ -67,8 +67,9 @@ std::vector<std::vector<std::array<double, 2>>> outlines_of(const dem::Record& r
 /// True for a layer in a matrix.
 bool layered(const dem::Record& record);
 
-/// The part of the sheet that maps show: the layer and as much matrix on either side, where there is one; else all of it.
-std::array<double, 2> heights_shown(const dem::Record& record);
+/// The part of the sheet that is shown: the layer with matrix on either side, as thick as the layer but no more than `beside`,
+/// where there is one; else all of it.
+std::array<double, 2> heights_shown(const dem::Record& record, double beside = 1);
 /// Cracks up to a strain over the grain outlines, by colour where they lie.
 std::string fracture_map(const dem::Record& record, double strain, double width);
 /// "13 broken springs inside grains, 2 at boundaries" up to a strain, in the words of the sheet's own map.

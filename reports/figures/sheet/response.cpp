@@ -104,6 +104,21 @@ render::Colour rising(double t) {
   return t < 0.5 ? between(low, middle, 2 * t) : between(middle, high, 2 * t - 1);
 }
 
+// How much matrix pictures of a layer show beside it: as high as leaves them as wide as the page.
+constexpr double beside_layer = 0.04;
+
+/// The values of the particles that are shown.
+std::vector<double> values_shown(const dem::Record& r, const std::string& table, const std::string& column) {
+  const auto value = r.table(table).real(column);
+  const auto place = r.table("particles").real("position");
+  const auto [bottom, top] = heights_shown(r, beside_layer);
+  std::vector<double> shown;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    if (place[2 * i + 1] >= bottom && place[2 * i + 1] <= top) shown.push_back(value[i]);
+  }
+  return shown;
+}
+
 // The size below which a share of the values lies: single springs at crack tips would take the whole scale.
 double size_at(std::span<const double> values, double share) {
   std::vector<double> size;
@@ -126,7 +141,7 @@ struct Field {
 Field field_of(const dem::Record& r, const std::vector<std::string>& tables, Field field) {
   double least = 1e300;
   for (const std::string& table : tables) {
-    const auto value = r.table(table).real(field.column);
+    const auto value = values_shown(r, table, field.column);
     field.high = std::max(field.high, size_at(value, 0.99));
     least = std::min(least, size_at(value, 0.01));
   }
@@ -140,14 +155,15 @@ render::Colour colour_of(const Field& field, double share) {
   return field.has_sign ? diverging(2 * share - 1) : rising(share);
 }
 
-Panel field_panel(const dem::Record& r, const std::string& table, double strain, const Field& field) {
+Panel field_panel(const dem::Record& r, const std::string& table, double strain, const Field& field,
+                  const std::string& label) {
   const Layout l = layout_of(r);
   const auto place = r.table("particles").real("position");
   const dem::Table& t = r.table(table);
   const auto value = t.real(field.column), move = t.real("displacement");
   render::Spheres spheres;
   spheres.cut_edges = false;
-  const auto [bottom, top] = heights_shown(r);
+  const auto [bottom, top] = heights_shown(r, beside_layer);
   for (std::size_t i = 0; i < value.size(); ++i) {
     if (place[2 * i + 1] < bottom || place[2 * i + 1] > top) continue;
     spheres.centre.push_back({place[2 * i] + move[2 * i], place[2 * i + 1] + move[2 * i + 1], 0});
@@ -168,15 +184,16 @@ Panel field_panel(const dem::Record& r, const std::string& table, double strain,
   p.scene.bar = render::ColourBar{
       .title = field.words + " (10⁻³ k)", .low = 1e3 * field.low, .high = 1e3 * field.high, .colours = {}};
   for (int k = 0; k < 64; ++k) p.scene.bar->colours.push_back(colour_of(field, (k + 0.5) / 64));
-  const auto range = std::minmax_element(value.begin(), value.end());
-  return {
-      .id = field.column + fmt::format("_{}", table.substr(table.size() - 4)),
-      .caption = fmt::format("{}{}{}; the colours span all but the most extreme 1 % of the values.", field.words,
-                             strip ? " in the layer and beside it" : "", field.has_sign ? ", tension positive" : ""),
-      .alt = fmt::format("Values go from {} to {} in units of k.", number(*range.first, 2), number(*range.second, 2)),
-      .content = p,
-      .per_row = strip ? 1 : 2,
-      .whole_width = strip};
+  const auto seen = values_shown(r, table, field.column);
+  const auto range = std::ranges::minmax_element(seen);
+  return {.id = field.column + fmt::format("_{}", table.substr(table.size() - 4)),
+          .caption = fmt::format("{}{}{}{}; the colours span all but the most extreme 1 % of the values shown.",
+                                 field.words, strip ? " in the layer and beside it" : "",
+                                 label.empty() ? "" : ", " + label, field.has_sign ? ", tension positive" : ""),
+          .alt = fmt::format("Values go from {} to {} in units of k.", number(*range.min, 2), number(*range.max, 2)),
+          .content = p,
+          .per_row = strip ? 1 : 2,
+          .whole_width = strip};
 }
 
 // Whether springs break later and tension falls more in one step the narrower their strengths are distributed; why it cannot
@@ -203,6 +220,22 @@ std::optional<Agreement> abruptness_agrees(const StudyResult& study, std::string
   return early && gradual ? Agreement::agrees : early || gradual ? Agreement::undecided : Agreement::disagrees;
 }
 
+// How far the differential stress has fallen by the end of a run that passed its peak, and whether that ended it.
+std::string fall_said(const dem::Record& r, const StudyResult& study) {
+  const dem::Table& h = r.table("history");
+  const double left = std::fabs(h.real("stress_xx").back() - h.real("stress_yy").back());
+  const double peak = r.value(quantity::peak_differential_stress), share = left / peak;
+  std::string said =
+      fmt::format("The differential stress of the walls peaks at {} and has fallen to {} of its peak by the end",
+                  at_strain(r, r.value(quantity::strain_at_peak)), percent(share, 0));
+  const double least = study.scenario->real("loading.stop_share"), steps = study.scenario->real("loading.steps"),
+               made = r.value(quantity::load_steps);
+  if (share < least && made < steps)
+    said += fmt::format(": below {} of it the specimen has failed and the run ends, after {} of {} load steps",
+                        percent(least, 0), count(made), count(steps));
+  return said;
+}
+
 }  // namespace
 
 FigureContent stress_strain(const StudyResult& study) {
@@ -215,7 +248,10 @@ FigureContent stress_strain(const StudyResult& study) {
                             "the smaller the largest fall of the wall tension in one load step."
                           : "";
   const Reach reach = reach_of(study);
-  std::vector<std::string> first, worst, falls, unbroken, rising, lasting;
+  std::vector<std::string> first, worst, falls, unbroken, rising, lasting, failed;
+  TextTable table{{"Run", "First break (%)", "Most breaks in one load step (% of all)",
+                   "Largest fall of the wall tension in one load step (% of its largest value)"},
+                  {}};
   for (const dem::Record* r : records_of(study)) {
     const std::string label = label_of(*r, study);
     content.panels.push_back(
@@ -235,7 +271,9 @@ FigureContent stress_strain(const StudyResult& study) {
          .content = breaks_chart(*r, reach),
          .per_row = 2});
     const std::string where = label == "this run" ? "" : " (" + label + ")";
-    if (!analysis::passed_peak(*r)) {
+    if (analysis::passed_peak(*r)) {
+      failed.push_back(fall_said(*r, study) + where);
+    } else {
       const double at = r->value(quantity::strain_at_peak), end = r->value(quantity::final_strain);
       if (at < end * (1 - 1e-9)) {
         lasting.push_back(at_strain(*r, at) + where);
@@ -249,30 +287,48 @@ FigureContent stress_strain(const StudyResult& study) {
     }
     first.push_back(fmt::format("{} %{}", number(100 * r->value(quantity::onset_strain), 3), where));
     worst.push_back(percent(r->value_or_nan(quantity::worst_step_share), 0) + where);
-    if (r->value_or_nan(quantity::largest_drop_share) > 0)
-      falls.push_back(percent(r->value(quantity::largest_drop_share), 0) + where);
+    const double fall = r->value_or_nan(quantity::largest_drop_share);
+    if (fall > 0) falls.push_back(percent(fall, 0) + where);
+    table.rows.push_back({capital(label), number(100 * r->value(quantity::onset_strain), 3),
+                          number(100 * r->value_or_nan(quantity::worst_step_share), 3),
+                          fall > 0 ? number(100 * fall, 3) : "–"});
+  }
+  // More than two runs are easier compared in a table than in a sentence.
+  constexpr std::size_t few = 2;
+  bool in_table = false;
+  if (table.rows.size() > few) {
+    content.panels.push_back({.id = "runs",
+                              .caption = "First breaks, and the worst of any load step.",
+                              .alt = "",
+                              .content = table,
+                              .per_row = 1});
+    first.clear(), falls.clear();
+    in_table = true;
   }
   std::vector<std::string> said;
+  if (in_table) said.emplace_back("The table has the first break and the worst load step of each run.");
   if (!first.empty()) {
     const bool growth = main->text("test") == "growth";
     said.push_back(fmt::format("The first spring breaks at a {} of {}.", growth ? "growth" : "strain", listed(first)));
-    said.push_back("The load step with most breaks has " + listed(worst) + " of all.");
+    said.push_back(listed(worst) + " of all breaks fall in one load step.");
   }
   if (!falls.empty())
     said.push_back("The largest fall of the wall tension in one load step is " + listed(falls) +
                    " of its largest value.");
   if (main->text("test") == "growth") {
     const dem::Table& h = main->table("history");
-    said.push_back("At the end the mean of both wall stresses is " +
-                   number(0.5 * (h.real("stress_xx").back() + h.real("stress_yy").back()), 3) + " k.");
+    said.push_back("At the end the mean wall stress is " +
+                   number(1e3 * 0.5 * (h.real("stress_xx").back() + h.real("stress_yy").back()), 3) + " × 10⁻³ k.");
   } else if (!rising.empty()) {
-    said.push_back(rising.front() == "this run" ? "The differential stress passes no peak by the end of the run."
-                   : rising.size() == records_of(study).size()
-                       ? std::string("In no run does the differential stress pass a peak.")
-                       : "The differential stress passes no peak by the end of the run: " + listed(rising) + ".");
+    said.push_back(
+        rising.front() == "this run" ? "The differential stress of the walls passes no peak by the end of the run."
+        : rising.size() == records_of(study).size()
+            ? std::string("In no run does the differential stress of the walls pass a peak.")
+            : "The differential stress of the walls passes no peak by the end of the run: " + listed(rising) + ".");
   }
+  for (const std::string& one : failed) said.push_back(one + ".");
   if (!lasting.empty())
-    said.push_back("The differential stress is largest at " + listed(lasting) +
+    said.push_back("The differential stress of the walls is largest at " + listed(lasting) +
                    ", and has not fallen by a quarter by the end.");
   if (!unbroken.empty())
     said.push_back("No spring broke" + (unbroken.front() == "this run" ? "" : ": " + listed(unbroken)) + ".");
@@ -285,31 +341,27 @@ FigureContent energy(const StudyResult& study) {
   FigureContent content;
   std::vector<std::string> said;
   double last_strain = 0, most = 0;  // ends of the axes that all panels share
+  bool jumps = false, historical = false;
   for (const dem::Record* r : records_of(study)) {
-    if (r->text("solver") != "converged") continue;
     const dem::Table& h = r->table("history");
+    jumps = jumps || std::ranges::any_of(h.real("jumped"), [](double e) { return e != 0; });
+    historical = historical || r->text("solver") == "historical";
     const auto strain = h.real("strain"), boundary = h.real("boundary_work"), growth = h.real("growth_work");
     for (std::size_t i = 0; i < strain.size(); ++i) {
       last_strain = std::max(last_strain, room * 100 * strain[i]);
       most = std::max(most, 1e6 * (boundary[i] + growth[i]));
     }
   }
+  const std::string by = jumps ? "breaking and jumps" : "breaking";
   for (const dem::Record* r : records_of(study)) {
-    if (r->text("solver") != "converged") continue;
     const dem::Table& h = r->table("history");
     const auto strain = h.real("strain"), elastic = h.real("elastic"), released = h.real("released"),
                jumped = h.real("jumped");
     const auto boundary = h.real("boundary_work"), growth = h.real("growth_work");
     render::Chart chart;
     const auto band = [](const char* words, const render::Colour& colour) {
-      return render::Band{.label = words,
-                          .x = {0},
-                          .low = {0},
-                          .high = {0},
-                          .colour = colour,
-                          .opacity = 1,
-                          .outlined = true,
-                          .inside = true};
+      return render::Band{
+          .label = words, .x = {0}, .low = {0}, .high = {0}, .colour = colour, .opacity = 1, .outlined = true};
     };
     render::Band stored = band("elastic", colours_of(Energy::elastic).area),
                  lost = band("released", colours_of(Energy::breaking).area);
@@ -336,36 +388,40 @@ FigureContent energy(const StudyResult& study) {
     const std::string label = label_of(*r, study);
     content.panels.push_back(
         {.id = r->case_id,
-         .caption = label == "this run"
-                        ? std::string("Energy; “released” is what breaking and jumps have taken.")
-                        : fmt::format("Energy, {}; “released” is what breaking and jumps have taken.", label),
+         .caption = fmt::format("Energy{}; “released” is what {} took.", label == "this run" ? "" : ", " + label, by),
          .alt = fmt::format("Work, elastic energy and released energy agree to {} of the work.", number(residual, 2)),
          .content = chart,
          .per_row = 2});
     said.push_back(number(residual, 2) + (label == "this run" ? "" : " (" + label + ")"));
   }
   if (!said.empty())
-    content.finding = listed(said) + " of the work is neither stored in springs nor released by breaking and jumps.";
+    content.finding = listed(said) + " of the work is neither stored in springs nor released by " + by + ".";
+  if (historical)
+    content.finding += " The historical solver stops before equilibrium: the energy of its run is not checked.";
   return content;
 }
 
 FigureContent stress_fields(const StudyResult& study) {
   FigureContent content;
   content.finding =
-      "The stress of a particle is the sum over its springs of force times length, over the area of its lattice cell.";
+      "The stress of a particle is the sum over its springs of force times length, over the area of its lattice cell. "
+      "Mean stress is half the sum of the two principal stresses in the plane, differential stress their difference: "
+      "of particles here, of the walls in the curves and tables.";
   const dem::Record* r = main_record(study);
   if (!r) return content;
   const auto snapshots = snapshots_of(*r);
   if (snapshots.empty()) return content;
   std::vector<std::size_t> shown{0};
   if (snapshots.size() > 1) shown.push_back(snapshots.size() - 1);
+  const std::string label = label_of(*r, study);
   std::vector<std::string> tables;
   for (const std::size_t k : shown) tables.push_back(snapshots[k].first);
   for (const Field& wanted : {Field{.column = "mean_stress", .words = "Mean stress", .has_sign = true},
                               Field{.column = "differential_stress", .words = "Differential stress"}}) {
     const Field field = field_of(*r, tables, wanted);
     for (const std::size_t k : shown)
-      content.panels.push_back(field_panel(*r, snapshots[k].first, snapshots[k].second, field));
+      content.panels.push_back(
+          field_panel(*r, snapshots[k].first, snapshots[k].second, field, label == "this run" ? "" : label));
   }
   return content;
 }
@@ -392,17 +448,14 @@ FigureContent solvers(const StudyResult& study) {
     return count(r.value(quantity::cracks_intra_tension) + r.value(quantity::cracks_inter_tension));
   };
   table.rows.push_back({"Broken springs", broken(*ours), broken(*theirs)});
-  row("Strain at the first break (%)", quantity::onset_strain, [](double v) { return number(100 * v, 3); });
   const std::array<const dem::Record*, 2> both_records{ours, theirs};
-  for (const dem::Quantity& one : {quantity::peak_differential_stress, quantity::strain_at_peak}) {
+  for (const dem::Quantity& one : {quantity::onset_strain, quantity::peak_differential_stress, quantity::strain_at_peak,
+                                   quantity::inter_grain_crack_share}) {
     const std::string name = axis_title(one, analysis::name_of(one, both_records));
     row(name.c_str(), one, [&](double v) { return number(one.factor * v, one.digits); });
   }
-  table.rows.push_back({"Share at grain boundaries (%)", number(100 * between_share(*ours), 3),
-                        number(100 * between_share(*theirs), 3)});
-  row("Largest unbalanced over largest spring force", quantity::unbalanced_force,
-      [](double v) { return number(v, 2); });
-  row("Energy unaccounted for, share of the work", quantity::energy_residual, [](double v) { return number(v, 2); });
+  for (const dem::Quantity& one : {quantity::unbalanced_force, quantity::energy_residual})
+    row(std::string(one.name).c_str(), one, [&](double v) { return number(v, one.digits); });
   // How long the two orders of breaking agree.
   const auto a = ours->table("cracks").real("position"), b = theirs->table("cracks").real("position");
   std::size_t same = 0;
@@ -422,22 +475,27 @@ FigureContent solvers(const StudyResult& study) {
   for (const dem::Record* r : {ours, theirs}) {
     const auto n = crack_counts(*r, strain);
     content.panels.push_back({.id = r->text("solver"),
-                              .caption = fmt::format("Fractures at {}, {}: {}.", at_strain(*r, strain),
-                                                     words(r->text("solver")), crack_words(*r, strain)),
+                              .caption = fmt::format("Fractures, {}, at {}: {}.", label_of(*r, study),
+                                                     at_strain(*r, strain), crack_words(*r, strain)),
                               .alt = fmt::format("Map of {} broken springs.", count(sum_of(n))),
                               .content = fracture_map(*r, strain, render::column_width),
                               .per_row = 2});
   }
-  content.panels.push_back(
-      {.id = "numbers", .caption = "One sheet, two solvers.", .alt = "", .content = table, .per_row = 1});
+  content.panels.push_back({.id = "numbers",
+                            .caption = fmt::format("One sheet (spread {:g}), two solvers.", ours->number("spread")),
+                            .alt = "",
+                            .content = table,
+                            .per_row = 1});
   content.finding = fmt::format(
       "The historical sweep stops when no particle moves by more than 1.4 × 10⁻⁷ of the box in a sweep; the converged "
-      "solver stops at force equilibrium. {}; {} of the springs that break with the converged solver also break with "
-      "the historical one.",
+      "solver stops at force equilibrium. Both runs here have spread {:g}. {}; {} of the springs that break with the "
+      "converged solver also break with the historical one. The historical run is checked for neither equilibrium nor "
+      "energy: {} of its work is unaccounted for.",
+      ours->number("spread"),
       same == 0   ? "The order of the breaks differs from the first on"
-      : same == 1 ? "The order of the breaks agrees only for the first"
-                  : fmt::format("The order of the breaks agrees for the first {}", count(static_cast<double>(same))),
-      percent(both, 0));
+      : same == 1 ? "Only the first break is the same in both"
+                  : fmt::format("The first {} breaks are the same in both", count(static_cast<double>(same))),
+      percent(both, 0), percent(theirs->value(quantity::energy_residual), 2));
   return content;
 }
 
