@@ -37,7 +37,7 @@ struct DrawnFigure {
   const Figure* figure = nullptr;
   int number = 0;         ///< from 1, in report order
   std::string mirrors{};  ///< the published figure; "" for another rock than the paper's
-  std::string statement{}, finding{};
+  std::string statement{}, finding{}, headline{};
   std::vector<std::string> rows{};       ///< see FigureContent
   std::optional<Agreement> agreement{};  ///< of ours with the statement
   std::string standing{};                ///< the same in words: "Disagrees (2 of 5 missed)."

@@ -34,7 +34,7 @@ inline constexpr Quantity tensile_strength = scattered(
     measured(dem::quantity::tensile_strength, "direct_tension", "Largest axial stress between the grips."), 0.04);
 inline constexpr Quantity brazilian_strength{
     .id = "brazilian_strength",
-    .name = "Splitting strength (Brazilian)",
+    .name = "Splitting strength",
     .symbol = "σ_B",
     .unit = "MPa",
     .tests = "brazilian",
@@ -90,17 +90,18 @@ inline constexpr Quantity shear_strength{.id = "shear_strength",
                                          .meaning = "Largest shear force over the area of the block."};
 inline constexpr Quantity residual_shear{
     .id = "residual_shear_strength",
-    .name = "Residual shear strength",
+    .name = "Shear strength after the peak",
     .symbol = "τ_r",
     .unit = "MPa",
     .tests = "direct_shear",
     .meaning =
-        "Mean shear stress over the last fifth of the shear displacement, of blocks that were sheared to the end."};
+        "Mean shear stress over the last fifth of the shear displacement, of blocks that were sheared to the end; a "
+        "residual strength once the upper half no longer rises."};
 inline constexpr Quantity dilation_at_peak{.id = "dilation_at_peak",
                                            .name = "Rise of the upper half at the peak",
                                            .unit = "µm",
                                            .tests = "direct_shear",
-                                           .meaning = "Against its place under the normal stress alone."};
+                                           .meaning = "From its position under the normal stress alone."};
 inline constexpr Quantity unloading_modulus{
     .id = "unloading_modulus",
     .name = "Modulus of the first unloading",
@@ -351,20 +352,21 @@ inline constexpr Parameter dip{.id = "dip",
                                .step = "degree of dip"};
 inline constexpr Parameter seed_scale{.id = "seed_scale",
                                       .name = "Seed scale",
-                                      .symbol = "seed scale",
+                                      .symbol = "grain diameters ×",
                                       .in_ids = "seed_scale",
                                       .key = "texture.seed_scale"};
 inline constexpr Parameter growth{
-    .id = "growth", .name = "Rule of growth", .symbol = "growth", .key = "texture.growth"};
+    .id = "growth", .name = "Rule of growth", .symbol = "growth by", .key = "texture.growth"};
 inline constexpr Parameter between{.id = "between",
                                    .name = "Coefficients act between",
-                                   .symbol = "coefficients between",
+                                   .symbol = "coefficients between different",
                                    .key = "interaction.between"};
 inline constexpr Parameter pressure_ratio{.id = "pressure_ratio",
                                           .name = "Packing pressure over modulus",
                                           .symbol = "packing pressure",
                                           .in_ids = "pressure_ratio",
-                                          .key = "packing.pressure_ratio"};
+                                          .key = "packing.pressure_ratio",
+                                          .behind = "of the modulus"};
 inline constexpr Parameter mineral{.id = "mineral", .name = "Mineral", .key = "texture.only_mineral"};
 inline constexpr Parameter confining_pressure{.id = "confining_pressure",
                                               .name = "Confining pressure σ₃",
@@ -386,11 +388,12 @@ inline constexpr Parameter jaw_ratio{.id = "jaw_ratio",
                                      .words = "the jaw ratio",
                                      .step = "unit of the jaw ratio"};
 inline constexpr Parameter notch{.id = "notch",
-                                 .name = "Depth of the notch over that of the bar",
-                                 .symbol = "a/W",
+                                 .name = "Notch depth over bar depth",
+                                 .symbol = "notch of",
                                  .in_ids = "notch",
                                  .key = "bending.notch",
                                  .at_zero = "no notch",
+                                 .behind = "W",
                                  .axis = true,
                                  .words = "the depth of the notch",
                                  .step = "depth of the bar"};

@@ -197,6 +197,7 @@ FigureContent content_of(const StudyResult& study, const Figure& figure, DrawnFi
       drawn.expected = content.expected;
     }
     drawn.finding = content.finding;
+    drawn.headline = content.headline;
     return content;
   } catch (const std::out_of_range& missing) {
     drawn.problem = std::string("This figure could not be drawn: ") + missing.what() + ".";

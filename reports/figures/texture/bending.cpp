@@ -23,6 +23,18 @@ struct Bent {
   double area = 0;                  ///< m^2
 };
 
+/// A notch is drawn as the slot that it stands for: white between dark edges, as no crack and no mineral is.
+constexpr render::Colour notch_colour{1, 1, 1}, notch_edge{0.15, 0.15, 0.15};
+
+/// `across`: of the picture, m.
+void add_notch(render::Scene& scene, double depth, double across) {
+  const auto add = [&](double nearer, const render::Colour& colour, double width) {
+    scene.lines.push_back({{{0, nearer, 0}, {0, nearer, depth}}, colour, width, render::Line::solid, false});
+  };
+  add(-0.3 * across / scene.width, notch_edge, 5.5);  // a fraction of a pixel behind
+  add(0, notch_colour, 3);
+}
+
 /// A strip that pushes, above (1) or below (-1) the body.
 void add_strip(render::Scene& scene, double x, double z, double half, double side) {
   const double back = z + side * half;
@@ -46,7 +58,9 @@ double bed_of(const dem::Record& record, double x, double half, double side, dou
   return bed;
 }
 
-Panel cracks_panel(const StudyResult& study, const SeriesCase& item, const Bent& bent, const std::string& what) {
+/// `notched`: some body of the figure has a notch, so that all pictures have one key.
+Panel cracks_panel(const StudyResult& study, const SeriesCase& item, const Bent& bent, const std::string& what,
+                   bool notched) {
   const Size size = size_of(*item.record);
   const double strip = std::max(0.05 * size.height, 0.5 * mean_diameter(*item.record));  // bending.h of the model
   const auto load = [&](render::Scene& scene) {
@@ -54,9 +68,7 @@ Panel cracks_panel(const StudyResult& study, const SeriesCase& item, const Bent&
                                         std::tuple{0.0, size.height, 1.0}}) {
       add_strip(scene, x, bed_of(*item.record, x, strip, side, face), strip, side);
     }
-    if (bent.notch > 0) {
-      scene.lines.push_back({{{0, 0, 0}, {0, 0, bent.notch}}, {0, 0, 0}, 2.5, render::Line::solid, true});
-    }
+    if (bent.notch > 0) add_notch(scene, bent.notch, size.diameter);
     // The picture holds the strips too.
     const double half = 0.5 * size.diameter, room = 1.5 * strip + 0.5 * mean_diameter(*item.record);
     scene.camera.frame = {{{-half, -half, -room}, {half, half, size.height + room}}};
@@ -66,8 +78,9 @@ Panel cracks_panel(const StudyResult& study, const SeriesCase& item, const Bent&
                               "The " + what +
                                   " on its strips, cut along its middle plane, with the cracks near it at the "
                                   "end of loading" +
-                                  (bent.notch > 0 ? "; the notch is the thick line" : "") + first_seed({item}) + ".",
+                                  first_seed({item}) + ".",
                               picture_width, load);
+  if (notched) std::get<Picture>(panel.content).legend.push_back({notch_colour, "notch"});
   return panel;
 }
 
@@ -80,13 +93,22 @@ void add_loads(FigureContent& content, const std::vector<SeriesCase>& cases, dou
     if (item.record->table("history").has("opening")) notched.push_back(item);
   }
   if (!notched.empty()) {
-    content.panels.push_back(
-        {.id = "opening",
-         .caption = "Load against the opening of the notch at the lower face" + first_seed(notched) + ".",
-         .alt = "Curves of load against opening.",
-         .content = load_curves(notched, {"opening", "axial_stress", 1e6, 1e-3 * area}, "Opening of the notch (µm)",
-                                load_title),
-         .per_row = 2});
+    render::Chart chart =
+        load_curves(notched, {"opening", "axial_stress", 1e6, 1e-3 * area}, "Opening of the notch (µm)", load_title);
+    // The first load may close the notch by a hair.
+    double least = 0, most = 0;
+    for (const render::Series& one : chart.series) {
+      for (const double x : one.x) least = std::min(least, x), most = std::max(most, x);
+    }
+    if (least > -0.02 * most) chart.x.low = 0;
+    const bool one_of_some = notched.size() == 1 && cases.size() > 1;
+    content.panels.push_back({.id = "opening",
+                              .caption = "Load against the opening of the notch at the lower face" +
+                                         (one_of_some ? ", " + notched.front().label : std::string()) +
+                                         first_seed(notched) + ".",
+                              .alt = "Curves of load against opening.",
+                              .content = std::move(chart),
+                              .per_row = 2});
   }
   content.panels.push_back(
       {.id = "deflection",
@@ -116,9 +138,14 @@ std::string cell(const SeriesCase& item, const dem::Quantity& quantity) {
   return std::isfinite(mean.value) ? estimate_text(mean, 3, true) : "–";
 }
 
-Panel table_panel(TextTable table) {
+Panel table_panel(const std::vector<SeriesCase>& cases, TextTable table) {
+  std::size_t most = 0;
+  for (const SeriesCase& item : cases) most = std::max(most, item.repeats.size());
   return {.id = "table",
-          .caption = "Means over specimens; in brackets 95 % intervals, from three specimens on.",
+          .caption = most < 2   ? "Of one specimen each."
+                     : most < 3 ? "Means over specimens."
+                                : "Means over specimens; 95 % confidence intervals in brackets, where there are three "
+                                  "specimens or more.",
           .alt = "",
           .content = std::move(table),
           .per_row = 1};
@@ -133,26 +160,26 @@ FigureContent bending_test(const StudyResult& study) {
   if (cases.empty() || !study.scenario) return content;
   const double depth = study.scenario->real("bending.depth"), width = study.scenario->real("bending.width");
   const double area = (width > 0 ? width : 0.6 * depth) * depth / 6;  // 2bW²/(3S), S = 4W
-  TextTable table{{"Bar", "Specimens", "Modulus of rupture (MPa)", "K_Ic (MPa√m)", "Opening at the largest load (µm)"},
-                  {}};
+  TextTable table{
+      {"Bar", "Specimens", "Modulus of rupture (MPa)", "K_Ic (MPa√m)", "Notch opening at the largest load (µm)"}, {}};
+  const bool notched = std::ranges::any_of(cases, [](const SeriesCase& item) { return item.value > 0; });
   std::vector<std::string> said;
-  for (SeriesCase& item : cases) {
-    item.label = item.value > 0 ? "notch of " + shortest(item.value) + " W" : "no notch";
-    content.panels.push_back(cracks_panel(study, item, {2 * depth, item.value * depth, area}, "bar"));
+  for (const SeriesCase& item : cases) {
+    content.panels.push_back(cracks_panel(study, item, {2 * depth, item.value * depth, area}, "bar", notched));
     content.panels.back().per_row = std::min(2, static_cast<int>(cases.size()));
     table.rows.push_back({item.label, std::to_string(item.repeats.size()), cell(item, quantity::modulus_of_rupture),
                           cell(item, quantity::fracture_toughness), cell(item, quantity::mouth_opening)});
     const analysis::Estimate rupture = mean_over(item, quantity::modulus_of_rupture),
                              toughness = mean_over(item, quantity::fracture_toughness);
-    if (std::isfinite(rupture.value)) said.push_back("the modulus of rupture is " + said_of(item, rupture, "MPa"));
-    if (std::isfinite(toughness.value)) {
-      said.push_back("K_Ic by the formula of ASTM E399 is " + said_of(item, toughness, "MPa√m") + " with a " +
-                     item.label);
-    }
+    if (std::isfinite(rupture.value))
+      said.push_back("the modulus of rupture is " + said_of(item, rupture, "MPa") + " without a notch");
+    if (std::isfinite(toughness.value))
+      said.push_back("with a " + item.label + ", K_Ic by ASTM E399 is " + said_of(item, toughness, "MPa√m"));
   }
   add_loads(content, cases, area, "the depth W");
-  content.panels.push_back(table_panel(std::move(table)));
-  if (!said.empty()) content.finding = "In three-point bending over a span of four depths W, " + listed(said) + ".";
+  content.panels.push_back(table_panel(cases, std::move(table)));
+  if (!said.empty())
+    content.finding = "In three-point bending over a span of four depths W, " + joined(said, "; ") + ".";
   return content;
 }
 
@@ -166,22 +193,24 @@ FigureContent half_disc_test(const StudyResult& study) {
                span = study.scenario->real("semicircular_bending.span") * diameter,
                notch = study.scenario->real("semicircular_bending.notch") * diameter / 2;
   const double area = diameter * (thickness > 0 ? thickness : 0.4 * diameter);
-  TextTable table{{"Half disc", "Specimens", "K_Ic (MPa√m)", "Opening at the largest load (µm)"}, {}};
+  TextTable table{{"Half disc", "Specimens", "K_Ic (MPa√m)", "Notch opening at the largest load (µm)"}, {}};
+  if (cases.size() == 1) cases.front().label = "notch of " + shortest(notch / (diameter / 2)) + " R";
   for (const SeriesCase& item : cases) {
-    content.panels.push_back(cracks_panel(study, item, {span / 2, notch, area}, "half disc"));
+    content.panels.push_back(cracks_panel(study, item, {span / 2, notch, area}, "half disc", true));
     content.panels.back().per_row = std::min(2, static_cast<int>(cases.size()));
     table.rows.push_back({item.label, std::to_string(item.repeats.size()), cell(item, quantity::fracture_toughness),
                           cell(item, quantity::mouth_opening)});
   }
   add_loads(content, cases, area, "the radius R");
-  content.panels.push_back(table_panel(std::move(table)));
+  content.panels.push_back(table_panel(cases, std::move(table)));
   const analysis::Estimate toughness = mean_over(cases.front(), quantity::fracture_toughness);
   if (std::isfinite(toughness.value)) {
     content.finding = fmt::format("K_Ic by the ISRM suggested method (Kuruppu et al. 2014) is {}.",
                                   said_of(cases.front(), toughness, "MPa√m"));
     if (diameter < least_diameter) {
       content.finding += fmt::format(
-          " The half disc is {} mm wide. The method asks for at least {:g} mm; smaller half discs give a lower K_Ic.",
+          " The half disc has a diameter of {} mm; the method requires {:g} mm or more, so this is the K_Ic of an "
+          "undersized specimen.",
           shortest(1e3 * diameter), 1e3 * least_diameter);
     }
   }

@@ -77,18 +77,34 @@ double turn_at_peak(const dem::Record& record) {
   return moment / inertia * 180 / std::numbers::pi;
 }
 
+/// "between flat platens", "in jaws of 1.5 R".
+std::string where(const SeriesCase& item) { return (item.value > 0 ? "in " : "between ") + item.label; }
+
 /// What makes a curve flat for a while before any bond breaks.
 std::string turning_words(const std::vector<SeriesCase>& cases) {
   constexpr double felt = 0.5;  // degrees: the rim has moved by more than a hundredth of its radius
   std::vector<std::string> turns;
   for (const SeriesCase& item : cases) {
     const double turn = std::abs(turn_at_peak(*item.record));
-    if (turn > felt) turns.push_back(fmt::format("{}° between {}", number(turn, 2), item.label));
+    if (turn > felt) turns.push_back(fmt::format("{}° {}", number(turn, 2), where(item)));
   }
   if (turns.empty()) return "";
-  return " Up to its peak the disc turns by " + listed(turns) +
-         ": nothing holds it but the few particles of its rim that bear, without friction. Where a curve is flat, it "
-         "turns on to the next ones.";
+  return " By its peak the disc has rotated by " + listed(turns) +
+         ", because only a few particles of its rim bear, and there is no friction; on the flat parts of the curve it "
+         "rolls on to the next ones.";
+}
+
+/// What the gauge reads of a disc that only rotates: it is fixed in space, and its particles come closer along it.
+std::string gauge_words(const std::vector<SeriesCase>& cases) {
+  constexpr double told = 0.005;  // %: what a curve shows
+  std::vector<std::string> shares;
+  for (const SeriesCase& item : cases) {
+    const double turn = turn_at_peak(*item.record) * std::numbers::pi / 180, share = -50 * turn * turn;
+    if (share < -told) shares.push_back(fmt::format("{} % {}", number(share, 1), where(item)));
+  }
+  return " The gauge does not rotate with the disc: a rotation by θ enters its strain as −θ²/2" +
+         (shares.empty() ? std::string() : " (" + listed(shares) + " at the peak)") +
+         ", so that a strain below zero may be one of settling between the platens.";
 }
 
 constexpr const char* splitting_stress = "2P/(πDt) (MPa)";
@@ -213,6 +229,22 @@ Agreement beside_even(double share, double even, std::size_t cracks) {
   return share < even - 2 * scatter ? Agreement::disagrees : Agreement::undecided;
 }
 
+/// Half a radius from the axis, and a quarter from the loaded diameter.
+void add_limits(render::Scene& scene, double radius) {
+  constexpr render::Colour thin{0.1, 0.1, 0.1};
+  render::Polyline circle{{}, thin, 1, render::Line::dash, false};
+  for (int i = 0; i <= 60; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 60;
+    circle.points.push_back({0.5 * radius * std::cos(angle), 0, radius + 0.5 * radius * std::sin(angle)});
+  }
+  scene.lines.push_back(circle);
+  const double reach = radius * std::sqrt(1 - 1.0 / 16);  // to the rim
+  for (const double side : {-1.0, 1.0}) {
+    const double x = 0.25 * side * radius;
+    scene.lines.push_back({{{x, 0, radius - reach}, {x, 0, radius + reach}}, thin, 1, render::Line::dash, false});
+  }
+}
+
 std::size_t first_cracks(const dem::Record& record) {
   double at_peak = 0;
   for (const dem::Quantity& one : quantity::cracks_at_peak) at_peak += record.value_or_nan(one);
@@ -240,14 +272,21 @@ FigureContent brazilian_test(const StudyResult& study) {
   content.panels.push_back(
       {.id = "strain",
        .caption = "Splitting stress against the strain across the loaded diameter, of a round gauge in the middle" +
-                  first_seed(cases) + ".",
+                  first_seed(cases) + "." + gauge_words(cases),
        .alt = "Curves of load against the tensile strain in the middle; largest loads of " + peaks + ".",
        .content = load_curves(cases, {"axial_strain", "axial_stress", 100, 1e-6}, "Tensile strain in the middle (%)",
                               splitting_stress)});
   const Size size = size_of(*cases.front().record);
-  content.finding = fmt::format(
-      "The splitting strength of discs of {:g} mm is {} ({}{}).", 1e3 * size.height, peaks, listed(labels_of(cases)),
-      cases.front().repeats.size() > 1 ? "; means of seeds, the curves are of the first" : "");
+  std::vector<std::string> said;
+  for (const SeriesCase& item : cases) {
+    const Spread strength = analysis::spread(item, shown(quantity::brazilian_strength));
+    if (strength.count > 0) said.push_back(number(strength.mean, 3) + " MPa " + where(item));
+  }
+  const std::size_t seeds = cases.front().repeats.size();
+  if (!said.empty())
+    content.finding =
+        fmt::format("The splitting strength of discs of {:g} mm is {}{}.", 1e3 * size.height, listed(said),
+                    seeds > 1 ? fmt::format(" (means of {}; pictures and curves: the first)", seeds_text(seeds)) : "");
   return content;
 }
 
@@ -263,11 +302,10 @@ FigureContent brazilian_strengths(const StudyResult& study) {
   std::vector<Sample> samples;
   const std::vector<double> tension = tension_of(study);
   if (!tension.empty()) samples.push_back({"direct tension", tension});
-  TextTable table{{"Test", "Specimens", "Strength (MPa)", "Direct over Brazilian", "First cracks in the middle (%)"},
-                  {}};
+  TextTable table{{"Test", "Specimens", "Strength (MPa)", "Direct over Brazilian"}, {}};
   if (!tension.empty()) {
     table.rows.push_back(
-        {"direct tension", std::to_string(tension.size()), estimate_text(analysis::mean_of(tension), 3, true), "", ""});
+        {"direct tension", std::to_string(tension.size()), estimate_text(analysis::mean_of(tension), 3, true), ""});
   }
   std::vector<std::string> said;
   std::vector<Agreement> verdicts;
@@ -276,11 +314,9 @@ FigureContent brazilian_strengths(const StudyResult& study) {
     const std::vector<double> values = strengths(item.repeats, quantity::brazilian_strength);
     samples.push_back({item.label, values});
     const analysis::Estimate ratio = analysis::ratio_of_means(tension, values);
-    const Spread middle = analysis::spread(item, shown(quantity::first_cracks_middle));
     table.rows.push_back({"Brazilian, " + item.label, std::to_string(values.size()),
                           estimate_text(analysis::mean_of(values), 3, true),
-                          std::isfinite(ratio.value) ? estimate_text(ratio, 2, true) : "–",
-                          middle.count > 0 ? number(middle.mean, 2) : "–"});
+                          std::isfinite(ratio.value) ? estimate_text(ratio, 2, true) : "–"});
     ratios.push_back(ratio);
     if (!std::isfinite(ratio.value)) continue;
     verdicts.push_back(agreement_of(ratio));
@@ -297,17 +333,24 @@ FigureContent brazilian_strengths(const StudyResult& study) {
                               .alt = "Direct over Brazilian strength: " + listed(said) + ".",
                               .content = ratios_chart(study, cases, ratios)});
   }
+  const auto enough = [](const Sample& one) { return one.values.size() > 2; };
   content.panels.push_back(
       {.id = "table",
-       .caption = "Mean strengths and their ratio; in brackets 95 % intervals, from three specimens of each test on.",
+       .caption = std::string("Mean strengths") + (verdicts.empty() ? "" : " and their ratio") +
+                  (std::ranges::any_of(samples, enough)
+                       ? "; 95 % confidence intervals in brackets, where there are three specimens or more."
+                       : "."),
        .alt = "",
        .content = table,
        .per_row = 1});
   if (!verdicts.empty()) {
     content.agreement = of_all(verdicts);
     content.finding = "Direct over Brazilian strength is " + listed(said) + ".";
-    const bool few = std::ranges::all_of(samples, [](const Sample& one) { return one.values.size() < 3; });
-    if (few) content.finding += " So few specimens give no interval.";
+    std::size_t most = 0;
+    for (const Sample& one : samples) most = std::max(most, one.values.size());
+    if (most < 3)
+      content.finding += most == 1 ? " One specimen of each is too few for an interval."
+                                   : " Two specimens are too few for an interval.";
   } else {
     content.finding = "Brazilian strengths: " + by_case(cases, quantity::brazilian_strength, 3) + ".";
   }
@@ -326,7 +369,8 @@ FigureContent brazilian_cracks(const StudyResult& study) {
     const std::size_t first = first_cracks(record);
     render::Scene scene = section_scene(study, record, picture_width);
     add_platens(scene, item);
-    for (render::Discs& discs : crack_discs(record, first, 1)) {
+    add_limits(scene, size_of(record).height / 2);
+    for (render::Discs& discs : crack_discs(record, first, 0.7)) {  // smaller, so that they can be counted
       discs.over = true;
       scene.discs.push_back(std::move(discs));
     }
@@ -361,12 +405,12 @@ FigureContent brazilian_cracks(const StudyResult& study) {
   if (said.empty()) return content;
   content.agreement = of_all(verdicts);
   content.finding =
-      "Of the first cracks, those within half a radius of the axis and those within a quarter of a radius "
-      "of the loaded diameter are " +
+      "Of the first cracks, those within half a radius of the axis of the disc and those within a quarter of a "
+      "radius of the loaded diameter (dashed) are " +
       listed(said) +
       fmt::format(
           ". Evenly spread cracks would give {:g} % in the middle and {:.3g} % along the diameter; "
-          "more by twice the scatter of their number counts as expected.",
+          "a share that exceeds this by two standard deviations counts as expected.",
           even_middle, even_band);
   return content;
 }

@@ -89,11 +89,13 @@ double largest_of(const std::vector<Found>& found) {
 
 FigureContent crack_directions(const StudyResult& study) {
   FigureContent content;
-  const auto pressed = swept(study, test_compression), pulled = swept(study, test_tension);
+  const auto pressed = swept_by_test(study, test_compression), pulled = swept_by_test(study, test_tension);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   std::vector<Found> found;
-  for (const SeriesCase& item : pressed) found.push_back(found_in(*item.record, item.label));
-  for (Found& one : found) one.is_case = true;
+  for (const SeriesCase& item : pressed) {
+    found.push_back(found_in(*item.record, item.label));
+    found.back().is_case = at_case(item).starts_with("at ");
+  }
   if (!pulled.empty()) found.push_back(found_in(*pulled.front().record, tension_label(study, pulled.front())));
   std::erase_if(found, [](const Found& one) { return one.poles.weight.empty(); });
   if (found.empty()) return content;
@@ -108,7 +110,8 @@ FigureContent crack_directions(const StudyResult& study) {
       {.id = "nets",
        .caption = "Poles of all cracks on the lower hemisphere, equal areas, weighted by crack area (one pole per "
                   "contact and mode): density by the kernel of Kamb and Vollmer; the load is along z, "
-                  "the middle of the net. The nets of this figure share one scale.",
+                  "the middle of the net. Below each net: dip and dip direction of the plane of the maximum, "
+                  "counter-clockwise from x. The nets of this figure share one scale.",
        .alt = all_words(found) + ".",
        .content = nets_of(found, largest),
        .per_row = 1,

@@ -95,7 +95,7 @@ std::string jump_words(const Across& across) {
 
 FigureContent displacement_jump(const StudyResult& study) {
   FigureContent content;
-  const auto pressed = swept(study, test_compression), pulled = swept(study, test_tension);
+  const auto pressed = swept_by_test(study, test_compression), pulled = swept_by_test(study, test_tension);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   std::vector<Across> all;
   for (const SeriesCase& item : pressed)

@@ -97,7 +97,7 @@ std::array<render::Point, 2> frame_of(const Size& size) {
 }
 
 std::string at_case(const SeriesCase& item) {
-  return (item.label == words(item.record->test) ? "in " : "at ") + item.label;
+  return (item.label == words(item.record->text("test")) ? "in " : "at ") + item.label;
 }
 
 std::string tension_label(const StudyResult& study, const SeriesCase& item) {

@@ -14,6 +14,8 @@ namespace reports::texture {
 const dem::Parameter& swept_axis(const StudyResult& study);
 /// Cases of a test along it.
 std::vector<SeriesCase> swept(const StudyResult& study, std::string_view test);
+/// The same for figures of several tests: where nothing else differs, the label is that of the test.
+std::vector<SeriesCase> swept_by_test(const StudyResult& study, std::string_view test);
 /// The first specimen of a scenario that makes them without loading; nullptr when there is none.
 const dem::Record* first_specimen(const StudyResult& study);
 /// The four classes of cracks, in the order of every legend. Their colours stay apart for every reader and in grey print
@@ -26,6 +28,8 @@ struct CrackClass {
 };
 const std::array<CrackClass, 4>& crack_classes();
 
+/// "at AR 2"; "in compression", where the label is that of the test.
+std::string at_case(const SeriesCase& item);
 /// A direct tension beside compressions: "direct tension, AR 1"; without its place where the pressure is swept, which it has not.
 std::string tension_label(const StudyResult& study, const SeriesCase& item);
 
@@ -87,7 +91,7 @@ Picture density_picture(const dem::Record& record, const CrackDensity& density, 
 /// "1 204 inter tension, 12 inter shear, ..."
 std::string crack_words(const std::array<std::size_t, 4>& numbers);
 
-/// What a case reads otherwise than its scenario does: "seeds × 1, growth by most contacts"; "" for nothing.
+/// What a case reads otherwise than its scenario does: "grain diameters × 1, growth by most contacts"; "" for nothing.
 std::string reading_of(const dem::Record& record, const StudyResult& study);
 
 std::vector<LegendEntry> mineral_legend(const StudyResult& study, const dem::Record& record);
