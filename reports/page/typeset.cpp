@@ -142,6 +142,17 @@ bool ends_number(std::string_view word) {
 // Of a sign between two numbers or a symbol and its value.
 bool binds(std::string_view word) { return word == "±" || word == "×" || word == "=" || word == "→"; }
 
+/// "UCS/TS" and "1)/2" are not broken behind their stroke; a path is.
+std::string whole_ratio(std::string_view word) {
+  const std::size_t stroke = word.find('/'), dot = word.find('.', stroke);
+  if (stroke == std::string_view::npos || stroke == 0 || stroke + 1 == word.size()) return std::string(word);
+  const bool path =
+      word.find('/', stroke + 1) != std::string_view::npos || (dot != std::string_view::npos && dot + 1 < word.size());
+  const char left = word[stroke - 1], right = word[stroke + 1];
+  if (path || !(in_word(left) || left == ')') || !(is_letter(right) || is_digit(right))) return std::string(word);
+  return std::string(word.substr(0, stroke + 1)) + "\u2060" + std::string(word.substr(stroke + 1));
+}
+
 std::string with_no_breaks(std::string_view text) {
   std::vector<std::string_view> parts;
   for (std::size_t begin = 0;;) {
@@ -150,7 +161,7 @@ std::string with_no_breaks(std::string_view text) {
     if (end == std::string_view::npos) break;
     begin = end + 1;
   }
-  std::string out(parts.front());
+  std::string out = whole_ratio(parts.front());
   for (std::size_t i = 1; i < parts.size(); ++i) {
     const std::string_view left = parts[i - 1], right = parts[i];
     const std::string_view next = i + 1 < parts.size() ? parts[i + 1] : std::string_view();
@@ -164,7 +175,7 @@ std::string with_no_breaks(std::string_view text) {
     const bool kept =
         (ends_number(left) && is_unit(right)) || (takes_number(left) && starts_number(right)) || sign || after_sign;
     out += kept ? no_break : std::string_view(" ");
-    out += right;
+    out += whole_ratio(right);
   }
   return out;
 }
