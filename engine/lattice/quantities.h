@@ -122,8 +122,8 @@ inline constexpr Quantity peak_strain =
 inline constexpr Quantity failure_time{.id = "failure_time",
                                        .name = "Time at which the main crack begins to open",
                                        .unit = "s",
-                                       .shown = "10⁻² s",
-                                       .factor = 100,
+                                       .shown = "µs",
+                                       .factor = 1e6,
                                        .tests = "tension",
                                        .meaning = "First step of the run of opening bonds with most bonds."};
 inline constexpr Quantity crack_duration{
@@ -135,18 +135,19 @@ inline constexpr Quantity crack_duration{
     .tests = "tension",
     .meaning = "From the first to the last bond that opens while the block parts."};
 inline constexpr Quantity crack_speed{.id = "crack_speed",
-                                      .name = "Speed of the opening crack",
+                                      .name = "Width over the time from D₁ to D₂",
                                       .unit = "m/s",
                                       .tests = "tension",
-                                      .meaning = "Width of the block over the time from D₁ to D₂."};
-inline constexpr Quantity kinetic_share{.id = "kinetic_share",
-                                        .name = "Largest kinetic energy, over the work (tension) or the elastic energy (compression)",
-                                        .shown = "%",
-                                        .factor = 100,
-                                        .tests = strength,
-                                        .meaning =
-                                            "In tension after D₁, over the work at that time; in compression after the "
-                                            "peak, over the elastic energy of the peak."};
+                                      .meaning = "Of the block; the mean speed of the crack that parts it."};
+inline constexpr Quantity kinetic_share{
+    .id = "kinetic_share",
+    .name = "Largest kinetic energy over the work (compression: over the elastic energy)",
+    .shown = "%",
+    .factor = 100,
+    .tests = strength,
+    .meaning =
+        "In tension after D₁, over the work at that time; in compression after the "
+        "peak, over the elastic energy of the peak."};
 inline constexpr Quantity frictional_share_at_parting{
     .id = "frictional_share_at_parting",
     .name = "Frictional heat over work when the main crack has opened",
@@ -197,16 +198,16 @@ inline constexpr Quantity a1_stress_after{.id = "a1_stress_after",
 inline constexpr Quantity a1_time{.id = "a1_time",
                                   .name = "Time as most bonds begin to open",
                                   .unit = "s",
-                                  .shown = "10⁻² s",
-                                  .factor = 100,
+                                  .shown = "µs",
+                                  .factor = 1e6,
                                   .kind = QuantityKind::diagnostic,
                                   .tests = "compression",
                                   .meaning = "Before those time steps."};
 inline constexpr Quantity sliding_start{.id = "sliding_start",
                                         .name = "Time at C₁",
                                         .unit = "s",
-                                        .shown = "10⁻² s",
-                                        .factor = 100,
+                                        .shown = "µs",
+                                        .factor = 1e6,
                                         .kind = QuantityKind::diagnostic,
                                         .tests = "compression",
                                         .meaning = "First bond that slides from the peak on."};
@@ -214,8 +215,8 @@ inline constexpr Quantity sliding_duration{
     .id = "sliding_duration",
     .name = "Time from C₁ to C₂",
     .unit = "s",
-    .shown = "10⁻⁴ s",
-    .factor = 1e4,
+    .shown = "µs",
+    .factor = 1e6,
     .tests = "compression",
     .meaning = "Until 99 of 100 of the bonds that slide from the peak on have slid."};
 inline constexpr Quantity normal_share_of_sliding_heat{
@@ -239,7 +240,7 @@ inline constexpr Quantity elastic_left_share{.id = "elastic_left_share",
                                              .meaning = "Over that at the peak."};
 inline constexpr Quantity viscous_share_of_heat{
     .id = "viscous_share_of_heat",
-    .name = "Viscous share of the heat",
+    .name = "Viscous share of the heat (compression: after C₁)",
     .shown = "%",
     .factor = 100,
     .tests = strength,
@@ -264,7 +265,7 @@ inline constexpr Quantity cracks_sliding{.id = "cracks.sliding",
                                          .meaning = "Bonds that broke in shear."};
 inline constexpr Quantity energy_residual = measured(
     dem::quantity::energy_residual, strength,
-    "Largest residual of the energy ledger over the work, taken as at least a thousandth of its largest value.");
+    "Largest residual of the energy ledger over the work, taken as at least a thousandth of its largest value so far.");
 inline constexpr Quantity particles = measured(dem::quantity::particles, "", "Elements of the block.");
 inline constexpr Quantity contacts = measured(dem::quantity::contacts, "", "Bonds of the block at the start.");
 inline constexpr Quantity steps = measured(dem::quantity::steps, strength, "Time steps of the test.");

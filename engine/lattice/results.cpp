@@ -305,8 +305,8 @@ void add_strength(Record& r, const Settings& s, const Block& block, const Streng
   constexpr double limit = 1e-3;
   r.checks.push_back({"energy_residual", test.largest_residual(), limit, test.largest_residual() <= limit,
                       "Work of the planes less elastic and kinetic energy and all heat, over the work, taken as at "
-                      "least a thousandth of its largest value; the largest of all samples. Limit: a thousandth, far "
-                      "below every published share of energy."});
+                      "least a thousandth of its largest value so far; the largest of all samples. Limit: a "
+                      "thousandth, far below every published share of energy."});
   constexpr double usual_bias = 0.03;
   const double bias = test.rate_bias();
   if (test.failed() && bias > usual_bias && bias <= s.rate_bias) {
@@ -318,12 +318,12 @@ void add_strength(Record& r, const Settings& s, const Block& block, const Streng
     r.checks.push_back({"quasi_static", bias, s.rate_bias, bias <= s.rate_bias,
                         "Share by which the rate of loading raises the strength, estimated from the kinetic over the "
                         "elastic energy before the first bond breaks and from the strain of a loading step over that "
-                        "of the peak. Limit: the key measure.rate_bias, what the scenario allows."});
+                        "of the peak. Limit: what the scenario allows (key measure.rate_bias)."});
   }
   const auto unseen = static_cast<double>(test.solver().unseen_contacts());
   r.checks.push_back({"contacts_outside_lattice", unseen, 0, unseen == 0,
-                      "Pairs of elements that are no neighbours in the lattice and came into contact. Limit: none, as "
-                      "the law knows neighbours only."});
+                      "Pairs of elements that are no neighbours in the lattice and came into contact. Limit: not one, "
+                      "as the law knows neighbours only."});
   add_block(r, block);
   r.tables.push_back(crack_table(test.solver().cracks(), block, s.setup.time_step));
   r.tables.push_back(history_table(test.history(), m));
@@ -358,12 +358,12 @@ void add_elastic(Record& r, const Settings& s, const Block& block, const std::ve
     const double restless = points.empty() ? 0 : points.back().restless;
     r.checks.push_back(
         {"at_rest", restless, 0, restless == 0,
-         "Searches for rest that were given up before the kinetic energy had fallen to its limit. Limit: none."});
+         "Searches for rest that were given up before the kinetic energy had fallen to its limit. Limit: not one."});
   } else {
     const auto missing = static_cast<double>(s.strains.size() - points.size());
     r.checks.push_back(
         {"strains_reached", missing, 0, missing == 0,
-         "Strains of elastic.strains that the test did not reach within loading.most_steps. Limit: none."});
+         "Strains of elastic.strains that the test did not reach within loading.most_steps. Limit: not one."});
   }
   add_size(r, block);
   t.add("axial_strain", "1", std::move(strain));

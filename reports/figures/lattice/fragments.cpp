@@ -1,5 +1,8 @@
 // What holds together after failure, and the emission of the blocks: bonds that break as events.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -13,6 +16,7 @@ namespace reports::lattice {
 namespace {
 
 constexpr int most_cases = 4;
+constexpr double main_part = 0.05;  // share of the volume of a main part
 
 // The main records of both tests, tension with all kinds of planes.
 std::vector<SeriesCase> failed(const StudyResult& study) {
@@ -33,8 +37,17 @@ std::vector<SeriesCase> failed(const StudyResult& study) {
   return cases;
 }
 
+// Whether what is drawn at `front` hides what is drawn at `behind` from an eye that looks along x or y.
+bool hides(const render::Spheres& all, std::size_t front, std::size_t behind, const render::Point& look) {
+  const std::size_t deep = look[0] != 0 ? 0 : 1, across = 1 - deep;
+  const render::Point &a = all.centre[front], &b = all.centre[behind];
+  return (b[deep] - a[deep]) * look[deep] > 0 &&
+         std::hypot(a[across] - b[across], a[2] - b[2]) < all.radius[front] + all.radius[behind];
+}
+
 // Small parts all around a crushed block hide its larger ones: single particles, the last entry of the key, are left out, and
-// so is what stands before one of the four largest parts, the first entries. The eye looks against y.
+// so is what stands before one of the four largest parts, the first entries. The eye looks from the side where these hide
+// each other least.
 void without_what_hides(Picture& picture, const analysis::Fragments& parts) {
   if (parts.single() * 4 < parts.of.size()) return;
   constexpr std::size_t largest = 4;
@@ -49,17 +62,25 @@ void without_what_hides(Picture& picture, const analysis::Fragments& parts) {
       is_large[i] = is_large[i] || same(all.colour[i], picture.legend[rank].colour);
     if (is_large[i]) large.push_back(i);
   }
-  const auto hides = [&](std::size_t i) {
-    return std::ranges::any_of(large, [&](std::size_t k) {
-      return all.centre[i][1] > all.centre[k][1] &&
-             std::hypot(all.centre[i][0] - all.centre[k][0], all.centre[i][2] - all.centre[k][2]) <
-                 all.radius[i] + all.radius[k];
-    });
+  render::Point& look = picture.scene.camera.direction;
+  std::size_t most = 0;
+  for (const render::Point& side : {render::Point{0, -1, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}}) {
+    std::array<std::size_t, largest> seen{};  // particles of each that none of another part hides
+    for (const std::size_t k : large) {
+      const auto own = [&](std::size_t i) { return same(all.colour[i], all.colour[k]); };
+      if (std::ranges::any_of(large, [&](std::size_t i) { return !own(i) && hides(all, i, k, side); })) continue;
+      for (std::size_t rank = 0; rank < largest && rank + 1 < picture.legend.size(); ++rank)
+        seen[rank] += same(all.colour[k], picture.legend[rank].colour);
+    }
+    if (const std::size_t least = 1 + std::ranges::min(seen); least > most) most = least, look = side;
+  }
+  const auto before_large = [&](std::size_t i) {
+    return std::ranges::any_of(large, [&](std::size_t k) { return hides(all, i, k, look); });
   };
   render::Spheres& kept = picture.scene.spheres.front();
   kept.centre.clear(), kept.radius.clear(), kept.colour.clear();
   for (std::size_t i = 0; i < all.centre.size(); ++i) {
-    if (same(all.colour[i], picture.legend.back().colour) || (!is_large[i] && hides(i))) continue;
+    if (same(all.colour[i], picture.legend.back().colour) || (!is_large[i] && before_large(i))) continue;
     kept.centre.push_back(all.centre[i]);
     kept.radius.push_back(all.radius[i]);
     kept.colour.push_back(all.colour[i]);
@@ -104,12 +125,38 @@ FigureContent fragments(const StudyResult& study) {
                               .per_row = 3});
   }
   content.panels.push_back({.id = "table",
-                            .caption = "Parts at the end of the test.",
+                            .caption =
+                                "Parts at the end of the test. The published number is compared with the pieces of at "
+                                "least 2 % of the elements.",
                             .alt = "",
                             .content = fragments_table(cases),
                             .per_row = 1});
   std::vector<std::string> said;
-  for (const Broken& broken : cases) said.push_back(fragments_words(broken));
+  std::vector<const Broken*> clean;  // blocks that part and leave nothing small
+  const auto parts_of = [](const Broken& broken) { return broken.parts.of_at_least(main_part); };
+  for (const Broken& broken : cases) {
+    const std::size_t main = parts_of(broken);
+    const bool alike = main > 1 && main == broken.parts.all.size() && broken.record->text("test") == "tension" &&
+                       (clean.empty() || parts_of(*clean.front()) == main);
+    if (alike)
+      clean.push_back(&broken);
+    else
+      said.push_back(fragments_words(broken));
+  }
+  if (clean.size() == 1) said.push_back(fragments_words(*clean.front()));
+  if (clean.size() > 1) {
+    std::vector<std::pair<std::string, std::vector<std::string>>> shares;  // of the largest part, and with which planes
+    for (const Broken* broken : clean) {
+      const std::string share = percent(broken->parts.share(0), 1);
+      const auto same = std::ranges::find(shares, share, &std::pair<std::string, std::vector<std::string>>::first);
+      (same == shares.end() ? shares.emplace_back(share, std::vector<std::string>()) : *same)
+          .second.push_back(planes_of(*broken->record));
+    }
+    std::vector<std::string> each;
+    for (const auto& [share, planes] : shares) each.push_back(share + " with " + listed(planes) + " planes");
+    said.push_back(fmt::format("tension: {} parts and nothing smaller; the largest has {}",
+                               count(static_cast<double>(parts_of(*clean.front()))), listed(each)));
+  }
   content.finding = sentence(said);
   return content;
 }

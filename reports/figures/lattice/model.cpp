@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <tuple>
 
 #include "render/paper/text.h"
 #include "reports/figures/lattice/parts.h"
@@ -55,7 +55,7 @@ Picture block_picture(const dem::Record& record) {
   picture.label = count(record.value(quantity::particles)) + " elements";
   picture.legend = {{{0.55, 0.66, 0.75}, "layers A"},
                     {{0.93, 0.86, 0.62}, "layers B"},
-                    {{0.80, 0.36, 0.20}, "end layers, at the planes"}};
+                    {{0.80, 0.36, 0.20}, "end layers (also A), at the planes"}};
   return picture;
 }
 
@@ -117,17 +117,19 @@ std::string spring(double x0, double y0, double x1, double y1, std::string_view 
 }
 
 std::string springs_drawing() {
-  constexpr int width = 600;  // shown in a column
+  // As high as the picture of the block beside it: the normal spring above, the shear spring below.
+  constexpr int width = 600, below = 270;  // shown in a column
   const auto text = [](double x, double y, const std::string& words) {
     return words_at(text_size * width / render::column_width, x, y, words);
   };
-  std::string s = head(width, 250, 300);
-  s += circle(80, 120, 55, "#c9d5de") + circle(230, 120, 55, "#c9d5de") + spring(80, 120, 230, 120, "#0072b2");
-  s += text(155, 45, "F_{n} = K_{n} X_{n}") + text(155, 98, "K_{n}") + text(155, 215, "breaks when X_{n} > X_{b}");
-  s += circle(365, 120, 55, "#c9d5de") + circle(475, 120, 55, "#c9d5de") + spring(420, 65, 420, 175, "#d55e00");
-  s += text(420, 45, "F_{s} = K_{s} X_{s}") + text(450, 124, "K_{s}") + arrow(365, 190, 365, 160, "#333") +
-       arrow(475, 50, 475, 80, "#333");
-  s += text(430, 215, "when |F_{s}| > F_{s0} − μ_{p} F_{n}");
+  std::string s = head(width, 530, 300);
+  s += circle(225, 120, 55, "#c9d5de") + circle(375, 120, 55, "#c9d5de") + spring(225, 120, 375, 120, "#0072b2");
+  s += text(300, 45, "F_{n} = K_{n} X_{n}") + text(300, 98, "K_{n}") + text(300, 215, "breaks when X_{n} > X_{b}");
+  s += circle(245, below + 120, 55, "#c9d5de") + circle(355, below + 120, 55, "#c9d5de") +
+       spring(300, below + 65, 300, below + 175, "#d55e00");
+  s += text(300, below + 40, "F_{s} = K_{s} X_{s}") + text(330, below + 124, "K_{s}") +
+       arrow(245, below + 195, 245, below + 160, "#333") + arrow(355, below + 45, 355, below + 80, "#333");
+  s += text(300, below + 230, "slides when |F_{s}| > F_{s0} − μ_{p} F_{n}");
   return s + "</svg>";
 }
 
@@ -143,11 +145,13 @@ std::string unit_drawing() {
     s += circle(x0 - 52, 190, 48, "#c9d5de") + circle(x0 + 52, 190, 48, "#c9d5de") + circle(x0, 108, 48, "#edd9a3");
     s += line(x0, 108, x0 + 52, 190, "#0072b2", 3) + line(x0 - 52, 190, x0 + 52, 190, "#d55e00", 3);
     s += text(x0, 103, "1") + text(x0 - 60, 186, "2") + text(x0 + 72, 186, "3, 4") +
-         text(x0 + 60, 136, "bond 1", "start") + text(x0, 210, "bond 2");
+         text(x0 + 60, 136, "bond 1", "start") + line(x0, 194, x0, 244, "#d55e00", 1) + text(x0, 258, "bond 2");
     s += tension ? arrow(x0, 60, x0, 18, "#333") + text(x0 + 12, 30, "F_{z}", "start")
                  : arrow(x0, 12, x0, 56, "#333") + text(x0 + 12, 30, "F_{z}", "start");
-    s += arrow(x0 - 126, 190, x0 - 102, 190, "#333") + arrow(x0 + 126, 190, x0 + 102, 190, "#333") +
-         text(x0 - 114, 180, "F_{x}") + text(x0 + 114, 180, "F_{x}");
+    const double from = tension ? 126 : 104,
+                 to = tension ? 104 : 126;  // what is pulled gets thinner, what is pressed wider
+    s += arrow(x0 - from, 190, x0 - to, 190, "#333") + arrow(x0 + from, 190, x0 + to, 190, "#333") +
+         text(x0 - 115, 180, "u_{x}") + text(x0 + 115, 180, "u_{x}");
     s += text(x0, 284, tension ? "tension: bond 1 opens" : "compression: bond 2 opens,");
     s += text(x0, 304, tension ? "at T_{u} (Eqs. 2, 7)" : "then bond 1 slides (Eqs. 8–14)");
   }
@@ -158,20 +162,20 @@ std::string sliding_drawing() {
   const auto text = [](double x, double y, const std::string& words, std::string_view anchor = "middle") {
     return words_at(text_size, x, y, words, anchor);
   };
-  std::string s = head(render::page_width, 260, 320);
-  s += line(20, 190, 290, 190, "#555", 3) + circle(110, 140, 50, "none", true) + circle(150, 140, 50, "#c9d5de");
-  s += circle(110, 140, 3, "#333") + circle(150, 140, 3, "#333") + circle(110, 190, 4, "#d55e00") +
-       spring(110, 190, 150, 140, "#d55e00");
-  s += text(98, 135, "O′", "end") + text(158, 135, "O", "start") + text(110, 212, "P") +
-       arrow(205, 140, 250, 140, "#333") + text(228, 130, "f");
-  s += text(155, 250, "(a) locked: no sliding, no heat");
-  s += line(340, 190, 620, 190, "#555", 3) + circle(410, 140, 50, "none", true) + circle(520, 140, 50, "#c9d5de");
-  s += circle(410, 140, 3, "#333") + circle(520, 140, 3, "#333") + spring(385, 190, 410, 140, "#d55e00") +
-       spring(480, 190, 520, 140, "#d55e00");
-  s += text(410, 128, "O_{1}") + text(520, 128, "O_{2}") + text(385, 216, "P_{1}") + text(480, 216, "P_{2}") +
-       arrow(385, 200, 480, 200, "#d55e00") + arrow(410, 70, 520, 70, "#333");
-  s += text(465, 62, "dS′") + text(432, 228, "dS");
-  s += text(480, 250, "(b) dS = dS′ − (F_{s2} − F_{s1})/K_{s}");
+  std::string s = head(render::page_width, 206, 320);
+  s += line(20, 136, 290, 136, "#555", 3) + circle(110, 86, 50, "none", true) + circle(150, 86, 50, "#c9d5de");
+  s += circle(110, 86, 3, "#333") + circle(150, 86, 3, "#333") + circle(110, 136, 4, "#d55e00") +
+       spring(110, 136, 150, 86, "#d55e00");
+  s += text(93, 82, "O′", "end") + text(158, 81, "O", "start") + text(110, 158, "P") + arrow(205, 86, 250, 86, "#333") +
+       text(228, 76, "f");
+  s += text(155, 196, "(a) locked: no sliding, no heat");
+  s += line(340, 136, 620, 136, "#555", 3) + circle(410, 86, 50, "none", true) + circle(520, 86, 50, "#c9d5de");
+  s += circle(410, 86, 3, "#333") + circle(520, 86, 3, "#333") + spring(385, 136, 410, 86, "#d55e00") +
+       spring(480, 136, 520, 86, "#d55e00");
+  s += text(410, 74, "O_{1}") + text(520, 74, "O_{2}") + text(385, 162, "P_{1}") + text(480, 162, "P_{2}") +
+       arrow(385, 146, 480, 146, "#d55e00") + arrow(410, 25, 520, 25, "#333");
+  s += text(465, 17, "dS′") + text(432, 164, "dS");
+  s += text(480, 196, "(b) dS = dS′ − (F_{s2} − F_{s1})/K_{s}");
   return s + "</svg>";
 }
 
@@ -212,7 +216,7 @@ FigureContent unit(const StudyResult&) {
   content.panels.push_back(
       {.id = "",
        .caption = "The tetrahedral unit seen from the side, under tension and under compression (schematic). "
-                  "Horizontal arrows: how the elements at the plane move.",
+                  "The arrows u_x show how the elements at the plane move.",
        .alt = "One sphere on three that stand on a plane, pulled on the left, pressed on the right.",
        .content = unit_drawing(),
        .per_row = 1,
@@ -245,46 +249,57 @@ FigureContent parameters(const StudyResult& study) {
   const dem::Record* r = any_record(study);
   if (!r || !study.scenario) return content;
   const dem::Scenario& s = *study.scenario;
-  const auto row = [](std::string a, std::string b, std::string c, std::string d) {
-    return std::vector<std::string>{std::move(a), std::move(b), std::move(c), std::move(d)};
+  // Of each parameter: how it is shown, and the published number.
+  struct Made {
+    std::string_view name, sentence;
+    dem::Quantity of;
+    std::string_view published;  // its id
+    double unit;                 // of that number
   };
-  TextTable table{{"Rock and block", "Value", "Parameter of elements", "Value"}, {}};
-  table.rows = {
-      row("Young’s modulus E", number(1e-9 * s.real("rock.young_modulus"), 4) + " GPa", "Normal stiffness Kₙ",
-          number(1e-6 * r->value(quantity::normal_stiffness), 5) + " × 10⁶ N/m"),
-      row("Poisson’s ratio ν", number(s.real("rock.poisson_ratio"), 4), "Shear stiffness Kₛ",
-          number(1e-6 * r->value(quantity::shear_stiffness), 4) + " × 10⁶ N/m"),
-      row("Tensile strength Tᵤ", number(1e-6 * s.real("rock.tensile_strength"), 4) + " MPa",
-          "Breaking displacement X_b", number(1e7 * r->value(quantity::breaking_displacement), 4) + " × 10⁻⁷ m"),
-      row("Compressive strength Cᵤ", number(1e-6 * s.real("rock.compressive_strength"), 4) + " MPa",
-          "Initial shear resistance Fₛ₀", number(r->value(quantity::initial_shear_resistance), 5) + " N"),
-      row("Internal friction μᵢ", number(s.real("rock.internal_friction"), 4), "Friction of a contact μₚ",
-          number(r->value(quantity::contact_friction), 4)),
-      row("Density ρ", number(s.real("rock.density"), 4) + " kg/m³", "Mass of an element m",
-          number(1e6 * r->value(quantity::element_mass), 4) + " × 10⁻⁶ kg"),
-      row("Element diameter d", number(1e3 * s.real("block.element_diameter"), 4) + " mm",
-          "First opening in compression C_open (Eq. 8)",
-          number(r->value(quantity::opening_stress_theory), 4) + " MPa")};
+  constexpr std::array made{
+      Made{"Normal stiffness Kₙ", "normal stiffness", quantity::normal_stiffness, "strength_kn", 1e6},
+      Made{"Shear stiffness Kₛ", "shear stiffness", quantity::shear_stiffness, "strength_ks", 1e6},
+      Made{"Breaking displacement X_b", "breaking displacement", quantity::breaking_displacement, "strength_xb", 1e-7},
+      Made{"Initial shear resistance Fₛ₀", "initial shear resistance", quantity::initial_shear_resistance,
+           "strength_fs0", 1.0},
+      Made{"Friction of a contact μₚ", "friction of a contact", quantity::contact_friction, "strength_mup", 1.0},
+      Made{"Mass of an element m", "mass of an element", quantity::element_mass, "element_mass", 1e-6}};
+  const std::array<std::pair<std::string, std::string>, 7> rock{
+      {{"Young’s modulus E", number(1e-9 * s.real("rock.young_modulus"), 4) + " GPa"},
+       {"Poisson’s ratio ν", number(s.real("rock.poisson_ratio"), 4)},
+       {"Tensile strength Tᵤ", number(1e-6 * s.real("rock.tensile_strength"), 4) + " MPa"},
+       {"Compressive strength Cᵤ", number(1e-6 * s.real("rock.compressive_strength"), 4) + " MPa"},
+       {"Internal friction μᵢ", number(s.real("rock.internal_friction"), 4)},
+       {"Density ρ", number(s.real("rock.density"), 4) + " kg/m³"},
+       {"Element diameter d", number(1e3 * s.real("block.element_diameter"), 4) + " mm"}}};
+  TextTable table{{"Rock and block", "Value", "Parameter of elements", "Ours", "Published"}, {}};
+  double worst = 0;
+  std::string_view of_which;
+  bool known = true;
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    const Made& one = made[i];
+    const double published = one.unit * study.published_value(one.published), ours = r->value(one.of);
+    const std::string_view unit = one.of.shown_unit();
+    const std::string behind = unit.empty() ? "" : (unit.starts_with("10") ? " × " : " ") + std::string(unit);
+    table.rows.push_back({rock[i].first, rock[i].second, std::string(one.name),
+                          number(one.of.factor * ours, one.of.digits) + behind,
+                          std::isfinite(published) ? shortest(one.of.factor * published) + behind : "–"});
+    known = known && std::isfinite(published);
+    if (const double off = std::abs(ours / published - 1); off >= worst) worst = off, of_which = one.sentence;
+  }
+  table.rows.push_back({rock.back().first, rock.back().second, "First opening in compression C_open (Eq. 8)",
+                        number(r->value(quantity::opening_stress_theory), 4) + " MPa", "–"});
   content.panels.push_back({.id = "",
                             .caption = "Properties of the rock, and the parameters made of them.",
                             .alt = "",
                             .content = table,
                             .per_row = 1});
-  double worst = 0;
-  bool known = true;
-  for (const auto& [of, id, unit] : {std::tuple{quantity::normal_stiffness, "strength_kn", 1e6},
-                                     {quantity::shear_stiffness, "strength_ks", 1e6},
-                                     {quantity::breaking_displacement, "strength_xb", 1e-7},
-                                     {quantity::initial_shear_resistance, "strength_fs0", 1.0},
-                                     {quantity::contact_friction, "strength_mup", 1.0},
-                                     {quantity::element_mass, "element_mass", 1e-6}}) {
-    const double published = unit * study.published_value(id);
-    known = known && std::isfinite(published);
-    worst = std::max(worst, std::abs(r->value(of) / published - 1));
-  }
   constexpr double near = 5e-4;  // the digits of Table 1
   if (known) content.agreement = worst < near ? Agreement::agrees : Agreement::disagrees;
-  if (known) content.finding = "The largest deviation from the six published parameters is " + percent(worst, 3) + ".";
+  if (known) {
+    content.finding =
+        fmt::format("The largest deviation from the six published parameters is {} ({}).", percent(worst, 3), of_which);
+  }
   return content;
 }
 

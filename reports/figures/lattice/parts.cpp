@@ -62,7 +62,7 @@ std::string choice_words(const dem::Record& record, const dem::Record& main) {
     } else if (name == "method") {
       parts.emplace_back("the paper’s loading steps");
     } else if (name == parameter::planes_in(record.text("test")).id) {
-      parts.push_back("planes " + parameter_text(value));
+      parts.push_back(parameter_text(value) + " planes");
     } else {
       parts.push_back(words(name) + " " + parameter_text(value));
     }

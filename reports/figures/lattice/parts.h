@@ -27,7 +27,7 @@ std::string no_failure_words(const dem::Record& record);
 
 /// How its planes hold the end elements: "elastic", "rigid" or "plate".
 std::string planes_of(const dem::Record& record);
-/// What sets a record apart from the main one: "planes rigid", "loading steps × 5"; "as the series" when nothing does.
+/// What sets a record apart from the main one: "rigid planes", "loading steps × 5"; "as the series" when nothing does.
 std::string choice_words(const dem::Record& record, const dem::Record& main);
 
 /// Part of a history column between two times (s); x is the time since `zero`, in microseconds.

@@ -14,21 +14,15 @@ namespace {
 struct Test {
   std::string_view name;
   dem::Quantity result, error;
-  std::string_view title;
+  std::string_view title, axis;
   std::string_view published_single, published_mean;  // errors (%), by id
 };
-constexpr Test tension{"tension",
-                       quantity::tensile_strength,
-                       quantity::tensile_strength_error,
-                       "Tensile strength Tᵤ (MPa)",
-                       "unit_tensile_strength",
-                       "mean_tensile_strength"};
-constexpr Test compression{"compression",
-                           quantity::compressive_strength,
-                           quantity::compressive_strength_error,
-                           "Compressive strength Cᵤ (MPa)",
-                           "unit_compressive_strength",
-                           "mean_compressive_strength"};
+constexpr Test tension{
+    "tension",     quantity::tensile_strength, quantity::tensile_strength_error, "Tensile strength Tᵤ",
+    "T_{u} (MPa)", "unit_tensile_strength",    "mean_tensile_strength"};
+constexpr Test compression{
+    "compression", quantity::compressive_strength, quantity::compressive_strength_error, "Compressive strength Cᵤ",
+    "C_{u} (MPa)", "unit_compressive_strength",    "mean_compressive_strength"};
 
 double theory(const StudyResult& study, const Test& test) {
   return 1e-6 * study.scenario->real(test.name == "tension" ? "rock.tensile_strength" : "rock.compressive_strength");
@@ -41,7 +35,7 @@ render::Chart against_size(const StudyResult& study, const Test& test) {
   chart.x.ticks = {{4, "4"}, {10, "10"}, {100, "100"}, {1000, "1000"}, {10000, "10 000"}, {100000, "100 000"}};
   chart.x.low = 3;
   chart.x.high = 60000;
-  chart.left.title = std::string(test.title);
+  chart.left.title = std::string(test.axis);
   const auto records = by_size(study, test.name);
   const double rock = theory(study, test);
   render::Series line;
@@ -57,7 +51,6 @@ render::Chart against_size(const StudyResult& study, const Test& test) {
   // First: its white marker would hide ours.
   add_published(chart, {{4, rock * (1 + study.published_value(test.published_single) / 100)}},
                 "published, single unit");
-  chart.series.push_back(line);
   const dem::Record* main = main_record(study, test.name);
   std::size_t colour = 1;
   for (const std::string_view planes : {"elastic", "plate", "rigid"}) {
@@ -70,10 +63,11 @@ render::Chart against_size(const StudyResult& study, const Test& test) {
       other.y.push_back(r->value_or_nan(test.result));
     }
     if (other.x.empty()) continue;
-    other = styled(other, fmt::format("planes {}", planes), colour++, render::Line::none);
+    other = styled(other, fmt::format("{} planes", planes), colour++, render::Line::none);
     other.marker = colour == 2 ? render::Marker::square : render::Marker::triangle;
     chart.series.push_back(other);
   }
+  chart.series.push_back(line);  // last: it shows where others lie on it
   for (const render::Series& s : chart.series) {
     for (const double y : s.y) {
       low = std::min(low, y);
@@ -147,8 +141,8 @@ FigureContent block_strengths(const StudyResult& study) {
   content.statement =
       "Tᵤ and Cᵤ of the single unit are 0.011 % and 1.73 % lower than those of quartzite. Blocks are weaker, on "
       "average by 8.89 % in tension and 18.51 % in compression, because cracks form first around the boundaries.";
-  content.rows = {"unit_tensile_strength", "unit_compressive_strength", "mean_tensile_strength",
-                  "mean_compressive_strength"};
+  content.rows = {"unit_tensile_strength",     "unit_compressive_strength", "mean_tensile_strength",
+                  "mean_compressive_strength", "tension_below_theory",      "compression_below_theory"};
   for (const Test& test : {tension, compression}) {
     add_missing(content, study, {test.name});
     const auto all = by_size(study, test.name);
@@ -196,10 +190,11 @@ FigureContent block_strengths(const StudyResult& study) {
 
 FigureContent strength_choices(const StudyResult& study) {
   FigureContent content;
-  content.statement = "The tensile strength is a bit lower along other directions (Section 6).";
+  content.statement = "The tensile strength is a bit lower along other directions.";
   content.rows = {"tension_lower_along_x", "tension_lower_along_y"};
   TextTable table{
-      {"Test", "Elements", "Choice", "Strength (MPa)", "Against theory", "First drop (MPa)", "Ledger residual"}, {}};
+      {"Test", "Elements", "Choice", "Strength (MPa)", "Against theory", "First fall by 5 % (MPa)", "Ledger residual"},
+      {}};
   std::vector<std::string> nearest;  // choice, by test
   for (const Test& test : {tension, compression}) {
     const dem::Record* main = main_record(study, test.name);
@@ -226,9 +221,10 @@ FigureContent strength_choices(const StudyResult& study) {
     }
     if (best && std::isfinite(published)) {
       const std::string choice = choice_words(*best, *main);
-      nearest.push_back(fmt::format("in {} {} ({} elements, {} %, published {} %)", test.name,
+      nearest.push_back(fmt::format("in {} {} ({} elements) {}: {} % against {} %", test.name,
                                     choice == "as the series" ? "the series itself" : choice,
                                     count(best->value(quantity::particles)),
+                                    nearest.empty() ? "comes closest to the published mean of nine blocks" : "does",
                                     with_sign(number(best->value_or_nan(test.error), 3)), shortest(published)));
     }
   }
@@ -241,7 +237,7 @@ FigureContent strength_choices(const StudyResult& study) {
       })) {
     content.finding += "No other direction of tension was run at this scale. ";
   }
-  content.finding += nearest.empty() ? "" : "Closest to the published means is, " + joined(nearest, "; ") + ".";
+  content.finding += sentence(nearest);
   return content;
 }
 

@@ -28,6 +28,14 @@ render::Spheres after_round(const StudyResult& study, const dem::Record& record,
   return spheres;
 }
 
+// "AR 1, seed 1": which of the specimens is shown, where there are several.
+std::string shown_words(const StudyResult& study, const dem::Record& record) {
+  if (study.cases.size() < 2) return {};
+  std::string words = "AR " + shortest(record.number("aspect_ratio"));
+  if (const auto* seed = dem::find_value(record.parameters, "seed")) words += ", seed " + parameter_text(*seed);
+  return words;
+}
+
 std::int32_t rounds_of(const dem::Record& record) {
   const auto claimed = record.table("particles").integer("growth_round");
   return claimed.empty() ? 0 : std::ranges::max(claimed);
@@ -74,6 +82,19 @@ std::array<render::Point, 2> window(const dem::Record& record) {
   return {{{-half, -half, middle - half}, {half, half, middle + half}}};
 }
 
+// Whether a round of growth assigned a particle that the section shows in the frame.
+bool changes_in(const dem::Record& record, const std::array<render::Point, 2>& frame, std::int32_t round) {
+  const dem::Table& particles = record.table("particles");
+  const auto position = particles.real("position"), radius = particles.real("radius");
+  const auto claimed = particles.integer("growth_round");
+  for (std::size_t i = 0; i < radius.size(); ++i) {
+    const bool inside = position[3 * i] > frame[0][0] && position[3 * i] < frame[1][0] &&
+                        position[3 * i + 2] > frame[0][2] && position[3 * i + 2] < frame[1][2];
+    if (claimed[i] == round && inside && std::abs(position[3 * i + 1]) < radius[i]) return true;
+  }
+  return false;
+}
+
 /// Of thin lines on white, for which the minerals are too light: six, apart for every reader and in grey.
 render::Colour line_colour(std::size_t group) {
   constexpr std::array<render::Colour, 6> colours{{{0.459, 0.353, 0.008},
@@ -103,7 +124,7 @@ ContactLines contact_lines(const dem::Record& record, const std::vector<render::
     ++result.numbers[k];
     if (std::abs(position[3 * i + 1] + position[3 * j + 1]) > 2 * reach) continue;
     result.lines.push_back(
-        {{{position[3 * i], 0, position[3 * i + 2]}, {position[3 * j], 0, position[3 * j + 2]}}, colours[k], 0.8});
+        {{{position[3 * i], 0, position[3 * i + 2]}, {position[3 * j], 0, position[3 * j + 2]}}, colours[k], 1.3});
   }
   return result;
 }
@@ -116,7 +137,7 @@ Picture contacts_picture(const StudyResult& study, const dem::Record& record, co
   if (zoomed) {
     scene.camera.frame = window(record);
     scene.height = scene.width;
-    for (render::Polyline& line : scene.lines) line.width = 1.8;
+    for (render::Polyline& line : scene.lines) line.width = 2.4;
   }
   return {.scene = std::move(scene), .label = label, .legend = legend};
 }
@@ -145,7 +166,7 @@ FigureContent genesis_steps(const StudyResult& study) {
   const auto frame = frame_of(size_of(*record));
   seeds.outline = {render::Outline::Shape::cylinder, frame[0], frame[1]};
   add("seeds", "Grain seeds in the core.", count(grains) + " spheres of four minerals spread through the cylinder.",
-      {.scene = std::move(seeds), .label = count(grains) + " seeds", .legend = mineral_legend(study, *record)});
+      {.scene = std::move(seeds), .label = count(grains) + " grain seeds", .legend = mineral_legend(study, *record)});
   render::Spheres bare = particles_by_mineral(study, *record);
   std::ranges::fill(bare.colour, grey);
   add("packing", "Particles packed in the cylinder.",
@@ -156,7 +177,7 @@ FigureContent genesis_steps(const StudyResult& study) {
   add("masked", "Masked by ellipsoids.",
       percent(gaps / particles) + " of the particles are in no ellipsoid and drawn in blue.",
       {.scene = scene_of(study, *record, after_round(study, *record, 0), false),
-       .label = "after masking: " + count(gaps) + " particles of no grain",
+       .label = "after masking: " + count(gaps) + " particles without a grain",
        .legend = with_gaps(study, *record)});
   add("masked_section", "Masked specimen, cut along the axis.", "Gap particles, in blue, lie between the grains.",
       {.scene = scene_of(study, *record, after_round(study, *record, 0), true),
@@ -168,8 +189,11 @@ FigureContent genesis_steps(const StudyResult& study) {
        .legend = mineral_legend(study, *record)});
   add("grown_section", "Grown specimen, cut along the axis.", "Grains of four minerals fill the section.",
       {.scene = section_scene(study, *record, narrow), .label = "section", .legend = mineral_legend(study, *record)});
-  content.finding = fmt::format(
-      "{} seeds and {} particles; ellipsoids mask {} of the particles, and {} rounds of growth assign the other {}; "
+  const std::string which = shown_words(study, *record);
+  content.finding = which.empty() ? "" : "Shown: " + which + ". ";
+  content.finding += fmt::format(
+      "{} grain seeds and {} particles; ellipsoids mask {} of the particles, and {} rounds of growth assign the other "
+      "{}; "
       "the coordination number is {}, the porosity {}.",
       count(grains), count(particles), percent(1 - gaps / particles), rounds_of(*record), count(gaps),
       number(record->value(quantity::coordination), 3), number(record->value(quantity::porosity), 4));
@@ -186,16 +210,20 @@ FigureContent genesis_growth(const StudyResult& study) {
   const std::int32_t rounds = rounds_of(*record);
   std::vector<std::int32_t> shown{0};
   if (rounds > 1) shown.push_back(1);
-  if (rounds > 0) shown.push_back(rounds);
+  // The last round may change nothing that the section shows: then the table alone tells of it.
+  const auto frame = window(*record);
+  const bool seen = rounds == 1 || changes_in(*record, frame, rounds);
+  if (rounds > 0 && seen) shown.push_back(rounds);
   for (const std::int32_t round : shown) {
     render::Scene scene = section_scene(study, *record, 480);
     scene.spheres = {after_round(study, *record, round)};
-    scene.camera.frame = window(*record);
+    scene.camera.frame = frame;
     scene.height = scene.width;
     const std::string left = count(static_cast<double>(gaps_after(*record, round)));
     content.panels.push_back(
         {.id = fmt::format("round_{}", round),
-         .caption = round == 0 ? "After masking." : fmt::format("After round {} of growth.", round),
+         .caption = round == 0 ? "After masking; a detail of the section."
+                               : fmt::format("After round {} of growth; the same detail.", round),
          .alt = fmt::format(
              "A few grains in the middle of the section; {} particles of the specimen are without a grain.", left),
          .content = Picture{.scene = std::move(scene), .label = left + " left", .legend = with_gaps(study, *record)},
@@ -211,8 +239,10 @@ FigureContent genesis_growth(const StudyResult& study) {
   content.panels.push_back(
       {.id = "rounds", .caption = "Particles by round of growth.", .alt = "", .content = table, .per_row = 1});
   content.agreement = gaps_after(*record, rounds) == 0 ? Agreement::agrees : Agreement::disagrees;
+  const std::string which = shown_words(study, *record);
   content.finding =
-      fmt::format("Growth took {} rounds; the first assigned {} of the gap particles.", rounds,
+      fmt::format("Growth took {} {}{}; the first assigned {} of the gap particles.", rounds,
+                  rounds == 1 ? "round" : "rounds", which.empty() ? "" : " (" + which + ")",
                   percent(rounds == 0 ? 0.0
                                       : 1 - static_cast<double>(gaps_after(*record, 1)) /
                                                 static_cast<double>(std::max<std::size_t>(1, gaps_after(*record, 0)))));
@@ -265,7 +295,7 @@ FigureContent genesis_contacts(const StudyResult& study) {
                                               : "Contacts near the section; the counts are of all contacts.",
                               .alt = by,
                               .content = contacts_picture(study, *record, lines, legend, label, near),
-                              .per_row = 3});
+                              .per_row = 2});
   };
   add("groups", groups, group_legend, "contact groups", by_group, false);
   add("laws", laws, law_legend, "contact laws", by_law, false);
@@ -273,7 +303,9 @@ FigureContent genesis_contacts(const StudyResult& study) {
   add("laws_near", laws, law_legend, "contact laws, enlarged", by_law, true);
   const bool same = groups.numbers[names.size()] + groups.numbers[names.size() + 1] == laws.numbers[1];
   content.agreement = same ? Agreement::agrees : Agreement::disagrees;
-  content.finding = by_group + " " + (same ? "All of them, and no other contact, are parallel bonds." : by_law);
+  const std::string which = shown_words(study, *record);
+  content.finding = (which.empty() ? "" : "Shown: " + which + ". ") + by_group + " " +
+                    (same ? "All of them, and no other contact, are parallel bonds." : by_law);
   return content;
 }
 }  // namespace reports::texture

@@ -16,9 +16,10 @@
 namespace reports::texture {
 namespace {
 
-constexpr int narrow = 320;  // px, of pictures beside each other
-const render::Colour platen{0.45, 0.48, 0.52};
+constexpr int narrow = 320;                           // px, of pictures beside each other
+const render::Colour platen{0.05, 0.52, 0.58};        // as no mineral is
 const render::Colour frame_colour{0.24, 0.24, 0.24};  // axes of the specimen
+const render::Colour seed_colour{0.05, 0.52, 0.58};
 
 render::Point turned(const render::Point& p, double dip_direction, double dip) {
   // R_z(dip direction) R_y(-dip): the long axis x goes to (cos dip cos dd, cos dip sin dd, sin dip).
@@ -69,7 +70,8 @@ render::Scene ellipsoid_scene(double ar, double dip_direction, double dip, const
   for (const render::Point& end : {render::Point{reach, 0, 0}, {0, reach, 0}, {0, 0, reach}})
     axis(end, frame_colour, false);
   scene.axes = true;
-  scene.camera.direction = {0.55, 0.75, -0.37};
+  scene.camera.direction = {-0.32, 0.87,
+                            -0.37};  // across the long axis, along x as well as turned by a few tens of degrees
   scene.camera.frame = {{{-1.3, -1.3, -1.1}, {1.6, 1.6, 1.7}}};
   scene.width = 400;
   scene.height = 360;
@@ -127,7 +129,9 @@ std::string spread_text(const Group& group, const dem::Quantity& of, int places)
   std::vector<double> values;
   for (const dem::Record* r : group.records) values.push_back(of.factor * r->value_or_nan(of));
   const Spread spread = analysis::spread(values);
-  return fixed(spread.mean, places) + (spread.count > 1 ? " ± " + fixed(spread.deviation, places) : "");
+  const bool same = spread.count < 2 || spread.deviation == 0;
+  if (same && std::floor(spread.mean) == spread.mean) return count(spread.mean);
+  return fixed(spread.mean, places) + (same ? "" : " ± " + fixed(spread.deviation, places));
 }
 
 // Surface of an ellipsoid of revolution over that of the sphere of its volume; and what Eq. 14 gives for it.
@@ -147,7 +151,7 @@ FigureContent ellipsoid_turns(const StudyResult& study) {
   FigureContent content;
   content.statement =
       "An ellipsoid is rotated about z by the dip direction and about y by the dip, and translated to its seed (Fig. "
-      "4, Eqs. 3 to 5).";
+      "4).";
   const dem::Record* record = first_specimen(study);
   if (!record || !study.scenario) return content;
   double dip = study.scenario->real("texture.dip"), direction = study.scenario->real("texture.dip_direction");
@@ -156,21 +160,24 @@ FigureContent ellipsoid_turns(const StudyResult& study) {
   constexpr double ar = 2;
   const std::vector<LegendEntry> legend{{{0.75, 0.05, 0.05}, "long axis, 2a"},
                                         {{0.74, 0.52, 0.0}, "short axes, 2b = 2c"},
-                                        {frame_colour, "axes of the specimen"}};
+                                        {frame_colour, "axes of the specimen"},
+                                        {seed_colour, "place of the seed"}};
+  const render::Point seed{0.6, 0.4, 0.7};
   const auto add = [&](const char* id, const std::string& caption, double dd, double d, const render::Point& centre) {
+    render::Scene scene = ellipsoid_scene(ar, dd, d, centre);
+    scene.spheres.push_back({.centre = {seed}, .radius = {0.12}, .colour = {seed_colour}});
     content.panels.push_back(
         {.id = id,
          .caption = caption,
          .alt = caption,
-         .content =
-             Picture{.scene = ellipsoid_scene(ar, dd, d, centre), .label = "", .legend = legend, .scale_bar = false},
+         .content = Picture{.scene = std::move(scene), .label = "", .legend = legend, .scale_bar = false},
          .per_row = 4});
   };
   const std::string about_z = shortest(degrees(direction)) + "°", about_y = shortest(degrees(dip)) + "°";
   add("made", "Along x.", 0, 0, {0, 0, 0});
   add("dip_direction", "Rotated about z by " + about_z + ".", direction, 0, {0, 0, 0});
   add("dip", "Rotated by the dip of " + about_y + ".", direction, dip, {0, 0, 0});
-  add("moved", "Translated to the seed.", direction, dip, {0.6, 0.4, 0.7});
+  add("moved", "Translated to the seed.", direction, dip, seed);
   // The same turn as the genesis makes it.
   const auto axis = record->table("grains").real("axis");
   const render::Point ours =
@@ -179,8 +186,8 @@ FigureContent ellipsoid_turns(const StudyResult& study) {
   for (std::size_t i = 0; i < 3 && axis.size() >= 3; ++i) apart = std::max(apart, std::abs(axis[i] - ours[i]));
   content.agreement = apart < 1e-12 ? Agreement::agrees : Agreement::disagrees;
   content.finding = fmt::format(
-      "{}The long axes of the specimen’s grains point where this rotation puts them{}. Eq. 4 as "
-      "printed says the same for a dip direction of 0° alone.",
+      "{}The long axes of the specimen’s grains point where this rotation puts them{}. Eq. 4 as printed differs from "
+      "it unless the dip direction is 0°.",
       example ? "The angles drawn are an example, with aspect ratio 2. " : "",
       apart < 1e-12 ? "" : ", but for " + number(apart, 2) + " of a unit vector");
   return content;
@@ -255,14 +262,14 @@ FigureContent input_parameters(const StudyResult& study) {
     aspect.push_back(shortest(item.record->number("aspect_ratio")));
   row("grain seeds", "number of minerals", "Nₘ", std::to_string(minerals));
   row("grain seeds", "factor on their diameters", "", shortest(s.real("texture.seed_scale")));
-  row("particles", "aspect ratios of grains", "AR = λ³",
+  row("grain seeds", "aspect ratios of grains", "AR = λ³",
       aspect.empty() ? shortest(s.real("texture.aspect_ratio")) : joined(aspect, ", "));
-  row("particles", "dip direction", "θ_z", shortest(degrees(s.real("texture.dip_direction"))) + "°");
-  row("particles", "dip", "θ_y", shortest(degrees(s.real("texture.dip"))) + "°");
-  row("particles", "smallest radius", "R_min", shortest(1e3 * s.real("packing.minimum_radius")) + " mm");
-  row("particles", "largest over smallest radius", "R_max/R_min", shortest(s.real("packing.radius_ratio")));
-  row("particles", "modulus while packing", "E*", shortest(1e-9 * s.real("packing.modulus")) + " GPa");
-  row("particles",
+  row("grain seeds", "dip direction", "θ_z", shortest(degrees(s.real("texture.dip_direction"))) + "°");
+  row("grain seeds", "dip", "θ_y", shortest(degrees(s.real("texture.dip"))) + "°");
+  row("sub-grains", "smallest radius", "R_min", shortest(1e3 * s.real("packing.minimum_radius")) + " mm");
+  row("sub-grains", "largest over smallest radius", "R_max/R_min", shortest(s.real("packing.radius_ratio")));
+  row("sub-grains", "modulus while packing", "E*", shortest(1e-9 * s.real("packing.modulus")) + " GPa");
+  row("sub-grains",
       study.of_a_paper ? "material pressure over modulus (not in the paper)" : "material pressure over modulus", "",
       shortest(s.real("packing.pressure_ratio")));
   row("interaction", "modulus", "α_E", shortest(s.real("interaction.modulus")));
@@ -325,29 +332,34 @@ FigureContent input_parameters(const StudyResult& study) {
     content.agreement = std::abs(density / published - 1) < near ? Agreement::agrees : Agreement::disagrees;
   }
   content.finding =
-      fmt::format("The densities of the minerals, weighted by their shares, give {} kg/m³.", number(density, 4));
+      fmt::format("The densities of the minerals, weighted by their shares, give {} kg/m³", number(density, 4));
+  content.finding += std::isfinite(published) ? fmt::format(", {} {}; the tolerance of {} is ours.",
+                                                            percent(std::abs(density / published - 1)),
+                                                            density < published ? "lower" : "higher", percent(near, 0))
+                                              : ".";
   return content;
 }
 
 FigureContent texture_by_seed(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "From aspect ratio 1 to 3 the share of inter-grain contacts rises from 55 to 60 %, because an ellipsoid has more "
-      "surface than the sphere of its volume (Eq. 14); the shares of the minerals hardly change.";
+      "From aspect ratio 1 to 3 the share of inter-grain contacts rises from 55 to 60 % (Fig. 18), because an "
+      "ellipsoid "
+      "has more surface than the sphere of its volume (Eq. 14).";
   content.rows = {"texture_inter_grain_share_ar_1", "texture_inter_grain_share_ar_3",
                   "texture_trend_inter_grain_share"};
   if (auto missing = missing_cases(study, test_genesis)) content.panels.push_back(*missing);
   const auto cases = swept(study, test_genesis);
   if (cases.empty()) return content;
   const ValueOf share = shown(quantity::inter_grain_share);
-  TextTable table{{"Specimen", "Seeds", "Inter-grain contacts (%)", "Coordination number", "Porosity", "Particles",
-                   "Grains", "Gap particles (%)", "Rounds"},
+  TextTable table{{"Specimen", "Random seeds", "Inter-grain contacts (%)", "Coordination number", "Porosity",
+                   "Particles", "Grains", "Gap particles (%)", "Rounds"},
                   {}};
   for (const Group& group : groups_of(study)) {
     table.rows.push_back({group.label, std::to_string(group.records.size()),
                           spread_text(group, quantity::inter_grain_share, 2),
-                          spread_text(group, quantity::coordination, 3), spread_text(group, quantity::porosity, 4),
-                          spread_text(group, quantity::particles, 0), spread_text(group, quantity::grains, 0),
+                          spread_text(group, quantity::coordination, 2), spread_text(group, quantity::porosity, 3),
+                          spread_text(group, quantity::particles, 1), spread_text(group, quantity::grains, 1),
                           spread_text(group, quantity::gap_share, 1), spread_text(group, quantity::growth_rounds, 1)});
   }
   if (swept_axis(study).id == "aspect_ratio" && cases.size() > 1) {
@@ -357,7 +369,7 @@ FigureContent texture_by_seed(const StudyResult& study) {
     chart.x.high = cases.back().value + 0.2;
     chart.left.title = "Inter-grain contacts (%)";
     render::Series ours = means(cases, share);
-    ours.label = "this study, mean and standard deviation over seeds";
+    ours.label = "this study, mean and standard deviation over random seeds";
     chart.series.push_back(ours);
     add_published(
         chart, published_points(study, {{1, "texture_inter_grain_share_ar_1"}, {3, "texture_inter_grain_share_ar_3"}}),
@@ -382,23 +394,26 @@ FigureContent texture_by_seed(const StudyResult& study) {
                               .per_row = 1});
     const double last = cases.back().value;
     content.finding = fmt::format(
-        "The share {}. From AR {} to {} it grows by a factor of {}; the surface of the ellipsoid grows by {}, and by "
-        "{} "
-        "in Eq. 14, an approximation. ",
+        "The share {}. From AR {} to {} it grows by a factor of {}; the surface of the ellipsoid by one of {}, or {} "
+        "by "
+        "Eq. 14, which is an approximation. ",
         trend_words(cases, share, "points", swept_axis(study)), shortest(cases.front().value), shortest(last),
         number(analysis::spread(cases.back(), share).mean / base, 4),
         number(exact_surface(last) / exact_surface(cases.front().value), 4),
         number(published_surface(last) / published_surface(cases.front().value), 4));
   }
-  content.panels.push_back(
-      {.id = "table", .caption = "Mean and standard deviation over seeds.", .alt = "", .content = table, .per_row = 1});
+  content.panels.push_back({.id = "table",
+                            .caption = "Mean and standard deviation over random seeds.",
+                            .alt = "",
+                            .content = table,
+                            .per_row = 1});
   const Spread at_base = analysis::spread(cases.front(), share);
   if (at_base.count > 1) {
-    content.finding +=
-        fmt::format("Standard deviations over {} seeds: share {} points, coordination number {}, porosity {}.",
-                    at_base.count, number(at_base.deviation, 2),
-                    number(analysis::spread(cases.front(), shown(quantity::coordination)).deviation, 2),
-                    number(analysis::spread(cases.front(), shown(quantity::porosity)).deviation, 2));
+    content.finding += fmt::format(
+        "Standard deviations over {} random seeds at {}: share {} points, coordination number {}, porosity {}.",
+        at_base.count, cases.front().label, number(at_base.deviation, 2),
+        number(analysis::spread(cases.front(), shown(quantity::coordination)).deviation, 2),
+        number(analysis::spread(cases.front(), shown(quantity::porosity)).deviation, 2));
   }
   return content;
 }
