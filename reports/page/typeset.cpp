@@ -146,6 +146,7 @@ bool binds(std::string_view word) { return word == "±" || word == "×" || word 
 std::string whole_ratio(std::string_view word) {
   const std::size_t stroke = word.find('/'), dot = word.find('.', stroke);
   if (stroke == std::string_view::npos || stroke == 0 || stroke + 1 == word.size()) return std::string(word);
+  if (word.find('_') != std::string_view::npos) return std::string(word);  // its indices are set later
   const bool path =
       word.find('/', stroke + 1) != std::string_view::npos || (dot != std::string_view::npos && dot + 1 < word.size());
   const char left = word[stroke - 1], right = word[stroke + 1];
