@@ -590,7 +590,7 @@ TEST_CASE("the lattice's figures take what the paper states from its file") {
   CHECK(reports::lattice::parameters(study).finding.empty());
   study.published = reports::published_numbers(study, DEM_SOURCE_DIR "/assets/papers");
   CHECK(reports::lattice::parameters(study).finding ==
-        "The largest deviation from the six published parameters is 2.000 %.");
+        "The largest deviation from the six published parameters is 2.000 % (mass of an element).");
   for (const char* id :
        {"unit_tensile_strength", "mean_tensile_strength", "unit_compressive_strength", "mean_compressive_strength"}) {
     CAPTURE(id);
