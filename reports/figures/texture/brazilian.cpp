@@ -104,7 +104,7 @@ std::string gauge_words(const std::vector<SeriesCase>& cases) {
   }
   return " The gauge does not rotate with the disc: a rotation by θ enters its strain as −θ²/2" +
          (shares.empty() ? std::string() : " (" + listed(shares) + " at the peak)") +
-         ", so that a strain below zero may be one of settling between the platens.";
+         "; a strain below zero can come from rotation alone.";
 }
 
 constexpr const char* splitting_stress = "2P/(πDt) (MPa)";
