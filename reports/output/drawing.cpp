@@ -52,8 +52,8 @@ constexpr std::string_view pictures = "figures/", tables = "data/";
 
 // A picture with as many pixels as it needs in print, and lines and words as wide as in charts. Pictures beside each other
 // share the page.
-render::Scene sized(render::Scene scene, int per_row, double dpi) {
-  scene.shown = static_cast<double>(render::page_width) / std::max(2, per_row);
+render::Scene sized(render::Scene scene, int per_row, bool whole_width, double dpi) {
+  scene.shown = static_cast<double>(render::page_width) / (whole_width ? 1 : std::max(2, per_row));
   const double mm = scene.shown * render::column_mm / render::column_width;
   // A high picture is printed less wide: its words are as large as all others there.
   scene.shown *= std::min(1.0, highest_picture(per_row) * scene.width / scene.height / mm);
@@ -126,7 +126,7 @@ render::SceneResult draw(const Job& job, const std::filesystem::path& folder, do
     for (std::size_t i = 0; i < data.size(); ++i) dem::write_file(files[i + 2], data[i].text());
   } else if (const auto* picture = std::get_if<Picture>(&job.panel->content)) {
     const int per_row = job.panel->per_row > 0 ? job.panel->per_row : pictures_per_row;
-    result = canvas().draw(sized(picture->scene, per_row, dpi), files[0], job.facts, dpi,
+    result = canvas().draw(sized(picture->scene, per_row, job.panel->whole_width, dpi), files[0], job.facts, dpi,
                            files.size() > 1 ? files[1] : std::filesystem::path());
   } else if (const auto* table = std::get_if<TextTable>(&job.panel->content)) {
     dem::write_file(files[0], csv(*table));

@@ -112,7 +112,9 @@ std::string verdict_class(const Comparison& row) {
 std::string deviation_text(const Comparison& row) {
   if (!row.deviation) return "–";
   if (*row.deviation == 0 && std::holds_alternative<std::pair<double, double>>(row.published)) return "within";
-  if (row.relative) return with_sign(fixed(100 * *row.deviation, 1)) + " %";
+  // As fine as the tolerance: 0.017 % of 0.05 % is not 0.
+  const int decimals = row.tolerance && *row.tolerance > 1e-6 && *row.tolerance < 1e-3 ? 3 : 1;
+  if (row.relative) return with_sign(fixed(100 * *row.deviation, decimals)) + " %";
   constexpr double tens = 10;  // 99.9 points are not 100
   const int digits = std::abs(*row.deviation) < tens ? 2 : 3;
   return with_unit(with_sign(number(*row.deviation, digits)), difference_unit(row.unit, *row.deviation));
