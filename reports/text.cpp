@@ -72,14 +72,23 @@ std::string with_sign(std::string text) {
 
 std::string shortest(double value) { return dressed(fmt::format("{:.9g}", value)); }
 
-std::string p_text(double p, int draws) {
+std::string p_cell(double p, int draws) {
   const double least = 1.0 / draws;
-  return p < least ? "p < " + number(least, 1) : "p = " + number(p, 2);
+  return p < least ? "< " + number(least, 1) : number(p, 2);
+}
+
+std::string p_text(double p, int draws) {
+  const std::string cell = p_cell(p, draws);
+  return cell.starts_with('<') ? "p " + cell : "p = " + cell;
 }
 
 std::string count(double value) { return fixed(value, 0); }
 
 std::string seeds_text(std::size_t seeds) { return seeds == 1 ? "one seed" : fmt::format("{} seeds", seeds); }
+
+std::string no_trend_text(std::size_t seeds) {
+  return seeds_text(seeds) + (seeds == 1 ? " tells" : " tell") + " no trend";
+}
 
 std::string listed(const std::vector<std::string>& items) {
   std::string text;

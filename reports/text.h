@@ -29,11 +29,15 @@ std::string with_sign(std::string text);
 std::string shortest(double value);
 /// "p = 0.02", "p < 0.005": by `draws` samples.
 std::string p_text(double p, int draws);
+/// The same in a column of p: "0.02", "< 0.005".
+std::string p_cell(double p, int draws);
 /// A count with thin spaces: "36 528".
 std::string count(double value);
 
 /// "one seed", "3 seeds".
 std::string seeds_text(std::size_t seeds);
+/// "one seed tells no trend", "2 seeds tell no trend": there are too few for an interval of the slope.
+std::string no_trend_text(std::size_t seeds);
 
 /// "a, b and c".
 std::string listed(const std::vector<std::string>& items);

@@ -36,6 +36,7 @@ struct Series {
   bool hollow = false;  ///< markers are outlines filled with white: what is published
   Side side = Side::left;
   std::vector<double> y_error = {};  ///< half lengths of error bars; empty: none
+  std::string name = {};             ///< in plain data, where it is not the label: "AR 1, fit"
 };
 
 /// A filled band between two curves.

@@ -23,6 +23,12 @@ constexpr std::array<SourceKind, 3> sources{{{analysis::Source::opens, "opens", 
                                              {analysis::Source::shears, "shears", {0.0, 0.412, 0.725}},
                                              {analysis::Source::closes, "closes", {0.0, 0.0, 0.0}}}};
 constexpr double magnitude_bin = 0.1;
+
+// The magnitude that all events of a fit have at least, where the points and the line of the figure stand: the lower edge of
+// its first bin.
+double begin_of(const analysis::GutenbergRichter& law) { return law.complete_from - 0.5 * magnitude_bin; }
+std::string begin_text(const analysis::GutenbergRichter& law) { return "M " + fixed(begin_of(law), 2); }
+std::string b_text(const analysis::GutenbergRichter& law) { return fixed(law.b, 2) + " ± " + fixed(law.error, 2); }
 constexpr render::Colour unknown_source{0.35, 0.35, 0.35};
 
 double heat_at(const dem::Table& history, const std::vector<std::string>& columns, double time) {
@@ -173,7 +179,8 @@ render::Chart magnitude_chart(const std::vector<Emission>& all) {
     chart.series.push_back(series);
     if (!e.law || !e.law->holds()) continue;
     render::Series line = line_of(
-        e.law->complete_from, bins.centre(bins.events.size() - 1), [&](double m) { return e.law->at_least(m); }, 1);
+        begin_of(*e.law), bins.centre(bins.events.size() - 1), [&](double m) { return e.law->at_least(m); }, 1);
+    line.name = e.looks.label + ", fit";
     line.colour = e.looks.colour;
     line.line = e.looks.line;
     chart.series.push_back(line);
@@ -266,7 +273,7 @@ TextTable table_of(const std::vector<Emission>& all) {
   TextTable table{
       {"Case", "Cracks", "Events", "Cracks of the largest event", "Energy of all events (mJ)",
        "Energy of all events over that of broken bonds in the ledger", "Window in space (mm)", "Window in time (µs)",
-       "Largest magnitude", "Fitted from M", "Events from there on", "b ± standard error"},
+       "Largest magnitude", "Fitted from M", "Events from there on", "b ± standard error", "p"},
       {}};
   for (const Emission& e : all) {
     std::size_t most = 0;
@@ -275,21 +282,25 @@ TextTable table_of(const std::vector<Emission>& all) {
       most = std::max(most, event.hits);
       largest = std::max(largest, event.magnitude());
     }
-    table.rows.push_back(
-        {e.looks.label, count(static_cast<double>(e.hits.all.size())), count(static_cast<double>(e.events.size())),
-         count(static_cast<double>(most)), number(1e3 * e.energy(), 4), fixed(e.energy() / e.heat, 5),
-         number(1e3 * e.window.length, 3), number(1e6 * e.window.time, 3), number(largest, 3),
-         e.law ? number(e.law->complete_from, 2) : "–", e.law ? count(static_cast<double>(e.law->events)) : "–",
-         !e.law           ? "too few events"
-         : e.law->holds() ? fixed(e.law->b, 2) + " ± " + fixed(e.law->error, 2)
-                          : "no straight line, " + p_text(e.law->p, analysis::law_samples)});
+    table.rows.push_back({e.looks.label, count(static_cast<double>(e.hits.all.size())),
+                          count(static_cast<double>(e.events.size())), count(static_cast<double>(most)),
+                          number(1e3 * e.energy(), 4), fixed(e.energy() / e.heat, 5), number(1e3 * e.window.length, 3),
+                          number(1e6 * e.window.time, 3), number(largest, 3), e.law ? fixed(begin_of(*e.law), 2) : "–",
+                          e.law ? count(static_cast<double>(e.law->events)) : "–",
+                          !e.law           ? "too few events"
+                          : e.law->holds() ? b_text(*e.law)
+                                           : "no straight line",
+                          e.law ? p_cell(e.law->p, analysis::law_samples) : "–"});
   }
   return table;
 }
 
-// A sentence for all that have a law, and one each for those that follow none and for those with too few events.
+// A sentence for all that have a law, and one each for those that follow none and for those with too few events. Where the
+// cases begin at a common magnitude, it says so, and what b is from the own magnitude of a case: of a catalogue that bends
+// the two differ.
 std::string laws_words(const std::vector<Emission>& all) {
-  std::vector<std::string> laws, bent, without;
+  std::vector<std::string> laws, own, bent, without;
+  const bool common = std::ranges::any_of(all, [](const Emission& e) { return e.own.has_value(); });
   std::set<long> from;  // in bins
   for (const Emission& e : all) {
     if (!e.law) {
@@ -298,13 +309,24 @@ std::string laws_words(const std::vector<Emission>& all) {
       bent.push_back(e.looks.label);
     } else {
       from.insert(std::lround(e.law->complete_from / magnitude_bin));
-      laws.push_back(fmt::format("{}: b {} ± {} from {} events of M {} or more", e.looks.label, fixed(e.law->b, 2),
-                                 fixed(e.law->error, 2), count(static_cast<double>(e.law->events)),
-                                 number(e.law->complete_from, 2)));
+      const std::string events = count(static_cast<double>(e.law->events)) + " events",
+                        p = p_text(e.law->p, analysis::law_samples);
+      laws.push_back(common ? fmt::format("{} at {} ({}, {})", b_text(*e.law), e.looks.label, events, p)
+                            : fmt::format("{}: b {} from {} of {} or more, {}", e.looks.label, b_text(*e.law), events,
+                                          begin_text(*e.law), p));
+      if (e.own)
+        own.push_back(fmt::format("{} at {} (from {}, {})", b_text(*e.own), e.looks.label, begin_text(*e.own),
+                                  p_text(e.own->p, analysis::law_samples)));
     }
   }
   std::vector<std::string> said;
-  if (!laws.empty()) said.push_back(capital(joined(laws, "; ")) + ".");
+  if (!laws.empty() && common) {
+    const auto one = std::ranges::find_if(all, [](const Emission& e) { return e.own.has_value(); });
+    said.push_back("From " + begin_text(*one->law) + ", the magnitude common to all cases, b is " + joined(laws, "; ") +
+                   ". From the lowest magnitude of a case alone it is " + joined(own, "; ") + ".");
+  } else if (!laws.empty()) {
+    said.push_back(capital(joined(laws, "; ")) + ".");
+  }
   if (from.size() > 1)
     said.emplace_back("The lines begin at different magnitudes, so that these b-values cannot be compared closely.");
   if (!bent.empty()) said.push_back("No b-value, as magnitudes follow no straight line: " + joined(bent, "; ") + ".");
@@ -325,7 +347,10 @@ void fit_alike(std::vector<Emission>& all) {
     alike.back() = law_of(e, from);
     if (!alike.back() || !alike.back()->holds() || alike.back()->complete_from > from + 0.5 * magnitude_bin) return;
   }
-  for (std::size_t c = 0; c < all.size(); ++c) all[c].law = alike[c];
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    if (alike[c] && alike[c]->complete_from > all[c].law->complete_from + 0.5 * magnitude_bin) all[c].own = all[c].law;
+    all[c].law = alike[c];
+  }
 }
 
 }  // namespace
@@ -341,6 +366,7 @@ std::optional<Emission> emission_of(const SeriesCase& item, const Emitter& of) {
                  .window = {},
                  .events = {},
                  .law = {},
+                 .own = {},
                  .diameter = of.diameter,
                  .strain = of.strain,
                  .outline = of.outline};
@@ -359,7 +385,7 @@ void add_emission(FigureContent& content, std::vector<Emission> all) {
   if (all.empty()) return;
   fit_alike(all);
   const Emission& base = all.front();
-  const std::string aside = base.strain == "platen_strain" ? " (of the gauge in other figures)" : "";
+  const std::string aside = base.strain == "platen_strain" ? ", not of the gauge" : "";
   content.panels.push_back(
       {.id = "activity",
        .caption = "Cracks and events against the strain of the ends" + aside + ": " + base.looks.label + ".",
@@ -373,8 +399,8 @@ void add_emission(FigureContent& content, std::vector<Emission> all) {
                             .per_row = 2});
   content.panels.push_back({.id = "magnitudes",
                             .caption = "Events by magnitude, M = 2/3 (log₁₀ E − 4.8) with all released energy E in J; "
-                                       "lines by maximum likelihood, from the magnitude on from which the catalogue is "
-                                       "complete and a straight line is not ruled out.",
+                                       "maximum-likelihood lines, from the lowest magnitude at which the catalogue is "
+                                       "complete and a straight line is not rejected.",
                             .alt = laws_words(all),
                             .content = magnitude_chart(all),
                             .per_row = 2});
@@ -388,6 +414,16 @@ void add_emission(FigureContent& content, std::vector<Emission> all) {
          .content = source_chart(base),
          .per_row = 2});
   }
+  // Before the maps: it can go on over the page, where they cannot.
+  content.panels.push_back(
+      {.id = "table",
+       .caption = "Events up to the end of loading, their energy over that of bonds broken in tension and shear in "
+                  "the ledger at that time, and the law of their magnitudes, fitted to at least 30 events. p: share of "
+                  "catalogues drawn from the straight line that lie at least as far from it; below " +
+                  percent(analysis::least_p, 0) + " no b is given. A low p tells that the catalogue bends.",
+       .alt = "",
+       .content = table_of(all),
+       .per_row = 1});
   const int per_row = all.size() <= 3 ? 3 : 4;
   double largest = 0;
   for (const Emission& e : all)
@@ -402,14 +438,6 @@ void add_emission(FigureContent& content, std::vector<Emission> all) {
          .alt = fmt::format("{} events at {}.", e.events.size(), e.looks.label),
          .content = map_of(e, largest),
          .per_row = per_row});
-  content.panels.push_back(
-      {.id = "table",
-       .caption = "Events up to the end of loading, their energy over that of bonds broken in tension and shear in "
-                  "the ledger at that time, and the law of their magnitudes, where 30 events or "
-                  "more follow a straight line.",
-       .alt = "",
-       .content = table_of(all),
-       .per_row = 1});
   content.finding = laws_words(all);
   double off = 0;
   for (const Emission& e : all) off = std::max(off, std::abs(e.energy() / e.heat - 1));

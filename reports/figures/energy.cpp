@@ -212,9 +212,12 @@ FigureContent energy_figure(const StudyResult& study, std::string_view test, con
          .content = residuals});
   }
   const std::string shares = shares_alt(*kept.front()->record);
-  content.finding = fmt::format("{}The largest residual of any case is {} of the work{}.",
-                                shares.empty() ? "" : "At " + kept.front()->label + ", " + shares + " ",
-                                number(worst, 2), std::isfinite(limit) ? " (limit " + number(limit, 2) + ")" : "");
+  content.finding = fmt::format("{}The largest residual {}is {} of the work{}.",
+                                shares.empty()    ? ""
+                                : kept.size() > 1 ? "At " + kept.front()->label + ", " + shares + " "
+                                                  : capital(shares) + " ",
+                                kept.size() > 1 ? "of any case " : "", scientific(worst, 2),
+                                std::isfinite(limit) ? " (limit " + scientific(limit, 2) + ")" : "");
   return content;
 }
 

@@ -118,6 +118,10 @@ Picture fragments_picture(const Broken& broken, double apart, const std::array<r
 
 std::optional<analysis::PowerLaw> size_law(const Broken& broken) { return analysis::fit_power_law(numbers_of(broken)); }
 
+bool has_size_law(const std::vector<Broken>& cases) {
+  return std::ranges::any_of(cases, [](const Broken& broken) { return size_law(broken).has_value(); });
+}
+
 render::Chart fragments_by_number(const std::vector<Broken>& cases) {
   render::Chart chart;
   chart.x.title = "Particles n of a part";
@@ -144,7 +148,13 @@ render::Chart fragments_by_number(const std::vector<Broken>& cases) {
     most = std::max(most, static_cast<double>(numbers.size()));
     chart.series.push_back(series);
     if (const auto law = size_law(broken); law && law->holds()) {
-      render::Series line{.label = "", .x = {}, .y = {}, .colour = broken.colour, .line = broken.line, .y_error = {}};
+      render::Series line{.label = "",
+                          .x = {},
+                          .y = {},
+                          .colour = broken.colour,
+                          .line = broken.line,
+                          .y_error = {},
+                          .name = broken.label + ", fit"};
       for (double n = law->least; n < 2e4; n *= 1.25) {
         const double parts = static_cast<double>(law->fragments) * law->at_least(n);
         if (parts < 0.7) break;
@@ -188,7 +198,7 @@ render::Chart fragments_by_volume(const std::vector<Broken>& cases) {
 
 TextTable fragments_table(const std::vector<Broken>& cases) {
   TextTable table{{"Case", "Parts above 5 % of the volume", "Largest (%)", "Second (%)", "Third (%)",
-                   "Smaller parts of two particles or more", "Single particles", "Exponent of n (95 % interval)"},
+                   "Smaller parts of two particles or more", "Single particles", "Exponent of n (95 % interval)", "p"},
                   {}};
   for (const Broken& broken : cases) {
     const std::size_t main = broken.parts.of_at_least(large), single = broken.parts.single();
@@ -202,7 +212,13 @@ TextTable fragments_table(const std::vector<Broken>& cases) {
                           count(static_cast<double>(single)),
                           !law           ? "too few parts or sizes"
                           : law->holds() ? estimate_text(law->exponent, 3, true)
-                                         : "no power law, " + p_text(law->p, analysis::law_samples)});
+                                         : "no power law",
+                          law ? p_cell(law->p, analysis::law_samples) : "–"});
+  }
+  if (!has_size_law(cases)) {
+    constexpr std::size_t of_the_law = 2;
+    table.head.resize(table.head.size() - of_the_law);
+    for (std::vector<std::string>& row : table.rows) row.resize(table.head.size());
   }
   return table;
 }

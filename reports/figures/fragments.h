@@ -31,6 +31,8 @@ render::Chart fragments_by_volume(const std::vector<Broken>& cases);
 TextTable fragments_table(const std::vector<Broken>& cases);
 /// The power law through all parts but the largest.
 std::optional<analysis::PowerLaw> size_law(const Broken& broken);
+/// Whether a case has enough parts for one: without, the table has no column of it.
+bool has_size_law(const std::vector<Broken>& cases);
 /// "AR 1: 3 parts above 5 % of the volume, the largest 62 %, 18 smaller ones and 40 single particles".
 std::string fragments_words(const Broken& broken);
 

@@ -71,7 +71,8 @@ std::string p_words(const analysis::Trend& fit) {
 
 void add_trends(FigureContent& content, const std::vector<Trend>& trends, const dem::Parameter& axis) {
   TextTable table{{"Cracks", "Slope per " + std::string(axis.step), "95 % interval", "p"}, {}};
-  std::vector<std::string> rising, falling, unclear;
+  std::vector<std::string> rising, falling, unclear, untold;
+  std::size_t seeds = 0;
   for (const auto& [name, fit] : trends) {
     if (!fit) continue;
     const double slope = fit->slope.value;
@@ -80,11 +81,14 @@ void add_trends(FigureContent& content, const std::vector<Trend>& trends, const 
     table.rows.push_back({name, number(slope, 2),
                           known ? number(fit->slope.low, 2) + " to " + number(fit->slope.high, 2) : "–",
                           p.starts_with("= ") ? p.substr(2) : p});
-    (!fit->is_clear() ? unclear : slope < 0 ? falling : rising).push_back(name);
+    seeds = std::max(seeds, fit->seeds);
+    if (!known)
+      untold.push_back(with_sign(number(slope, 2)) + " (" + name + ")");
+    else
+      (!fit->is_clear() ? unclear : slope < 0 ? falling : rising).push_back(name);
   }
   if (table.rows.empty()) return;
-  const bool any_known =
-      std::ranges::any_of(trends, [](const Trend& t) { return t.fit && t.fit->slope.has_interval(); });
+  const bool any_known = untold.size() < table.rows.size();
   if (!any_known) {  // too few seeds
     table.head.resize(2);
     for (auto& row : table.rows) row.resize(2);
@@ -101,7 +105,10 @@ void add_trends(FigureContent& content, const std::vector<Trend>& trends, const 
   if (!unclear.empty())
     said.push_back(rising.empty() && falling.empty() ? "no class of cracks shows a clear trend"
                                                      : listed(unclear) + " cracks show no clear trend");
-  content.finding += " With " + std::string(axis.words) + ", " + joined(said, "; ") + ".";
+  if (!said.empty()) content.finding += " With " + std::string(axis.words) + ", " + joined(said, "; ") + ".";
+  if (!untold.empty())
+    content.finding +=
+        " Slopes per " + std::string(axis.step) + ": " + joined(untold, ", ") + "; " + no_trend_text(seeds) + ".";
 }
 
 std::string trend_words(const std::vector<SeriesCase>& cases, const ValueOf& value, std::string_view unit,
@@ -112,8 +119,7 @@ std::string trend_words(const std::vector<SeriesCase>& cases, const ValueOf& val
   const std::string of =
       (unit.empty() || unit == "°" ? std::string(unit) : " " + std::string(unit)) + " per " + std::string(axis.step);
   if (!fit->slope.has_interval()) {
-    return fmt::format("shows no clear trend: slope {}{} ({}, no interval)", with_sign(number(slope, 2)), of,
-                       seeds_text(fit->seeds));
+    return fmt::format("has the slope {}{}: {}", with_sign(number(slope, 2)), of, no_trend_text(fit->seeds));
   }
   const std::string interval =
       fmt::format("95 % interval {} to {}, p {}", number(fit->slope.low, 2), number(fit->slope.high, 2), p_words(*fit));

@@ -36,7 +36,8 @@ render::Series means(const std::vector<SeriesCase>& cases, const ValueOf& value)
 
 /// The straight line through a value of all cases and repeats against the swept parameter.
 std::optional<analysis::Trend> trend_of(const std::vector<SeriesCase>& cases, const ValueOf& value);
-/// "rises by 1.2 MPa per degree of dip (95 % interval 0.4 to 2, p = 0.01)", or that it shows no clear trend; "" with one case.
+/// "rises by 1.2 MPa per degree of dip (95 % interval 0.4 to 2, p = 0.01)", that it shows no clear trend, or
+/// "has the slope 1.2 MPa per degree of dip: one seed tells no trend"; "" with one case.
 std::string trend_words(const std::vector<SeriesCase>& cases, const ValueOf& value, std::string_view unit,
                         const dem::Parameter& axis);
 /// "AR 1", "AR 2", ...

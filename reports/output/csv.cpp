@@ -95,6 +95,8 @@ std::string bars_text(const render::Chart& chart) {
   return text;
 }
 
+const std::string& name_of(const render::Series& series) { return series.name.empty() ? series.label : series.name; }
+
 /// The columns of curves on one value axis.
 struct SideColumns {
   render::Side side;
@@ -108,7 +110,7 @@ std::string curves_text(const render::Chart& chart) {
   for (SideColumns& side : sides) {
     for (const render::Series& s : chart.series) {
       if (s.side != side.side) continue;
-      (is_published(s.label) ? side.published : side.ours) = true;
+      (is_published(name_of(s)) ? side.published : side.ours) = true;
       side.errors = side.errors || !s.y_error.empty();
     }
   }
@@ -121,11 +123,11 @@ std::string curves_text(const render::Chart& chart) {
   std::string text = row(unlike(head));
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
     const render::Series& s = chart.series[i];
-    const std::string name = s.label.empty() ? "series " + std::to_string(i + 1) : without_marks(s.label);
+    const std::string name = name_of(s).empty() ? "series " + std::to_string(i + 1) : without_marks(name_of(s));
     for (std::size_t k = 0; k < std::min(s.x.size(), s.y.size()); ++k) {
       std::vector<std::string> cells{name, plain(s.x[k])};
       for (const SideColumns& side : sides) {
-        const bool here = s.side == side.side, published = is_published(s.label);
+        const bool here = s.side == side.side, published = is_published(name_of(s));
         if (side.ours) cells.push_back(here && !published ? plain(s.y[k]) : "");
         if (side.published) cells.push_back(here && published ? plain(s.y[k]) : "");
         if (side.errors) cells.push_back(here && k < s.y_error.size() ? plain(s.y_error[k]) : "");

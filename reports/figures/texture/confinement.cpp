@@ -89,24 +89,25 @@ bool mark_end_of_loading(render::Chart& chart, const std::vector<SeriesCase>& ca
                        .line = render::Line::none,
                        .marker = render::Marker::cross,
                        .y_error = {}};
+  if (std::ranges::none_of(cases, [](const SeriesCase& item) { return analysis::is_followed(*item.record); }))
+    return false;
   for (const SeriesCase& item : cases) {
-    if (!analysis::is_followed(*item.record)) continue;
     const dem::Table& history = item.record->table("history");
     const std::size_t end = analysis::end_of_loading(*item.record);
     marks.x.push_back(100 * history.real("axial_strain")[end]);
     marks.y.push_back(1e-6 * history.real("axial_stress")[end]);
   }
-  if (marks.x.empty()) return false;
   chart.series.push_back(std::move(marks));
   return true;
 }
 
-// "the end of loading, where the stress has fallen to 80 % of its peak or the strain has come to 1.5 times that of the peak"
+// "the end of loading, where the stress has fallen to 80 % of its peak or the strain of the ends has come to 1.5 times that at the peak"
 std::string end_of_loading_words(const dem::Scenario& scenario) {
   const double limit = scenario.real("compression.strain_limit");
   return "the end of loading, where the stress has fallen to " + percent(scenario.real("compression.stop"), 0) +
          " of its peak" +
-         (limit > 0 ? fmt::format(" or the strain has come to {:g} times that of the peak", limit) : std::string());
+         (limit > 0 ? fmt::format(" or the strain of the ends has come to {:g} times that at the peak", limit)
+                    : std::string());
 }
 
 // Half the range of the axial stiffness over its mean where its plateau is read, between 10 and 25 % of the way to the peak:
@@ -220,35 +221,43 @@ render::Chart envelope_chart(const StudyResult& study, const analysis::Envelopes
     }
     chart.series.push_back(ts);
   }
-  const auto line = [&](const std::string& label, const render::Colour& colour, render::Line kind, const auto& at) {
+  const auto line = [&](const std::string& label, const char* name, const render::Colour& colour, render::Line kind,
+                        const auto& at) {
     render::Series series = line_of(0, high, at);
     series.label = label;
+    series.name = name;
     series.colour = colour;
     series.line = kind;
     if (!series.x.empty()) chart.series.push_back(series);
   };
   if (found.peak_fit)
-    line("our fits, each in the colour of its points", peak_colour, render::Line::solid,
+    line("our fits, each in the colour of its points", "peak, fit", peak_colour, render::Line::solid,
          [&](double x) { return found.peak_fit->at(x); });
-  if (found.damage_fit) line("", damage_colour, render::Line::solid, [&](double x) { return found.damage_fit->at(x); });
+  if (found.damage_fit)
+    line("", "crack damage, fit", damage_colour, render::Line::solid,
+         [&](double x) { return found.damage_fit->at(x); });
   if (by_stiffness.fit)
-    line("", initiation_colour, render::Line::solid, [&](double x) { return by_stiffness.fit->at(x); });
-  if (by_strain.fit) line("", strain_colour, render::Line::solid, [&](double x) { return by_strain.fit->at(x); });
+    line("", "σci by axial stiffness, fit", initiation_colour, render::Line::solid,
+         [&](double x) { return by_stiffness.fit->at(x); });
+  if (by_strain.fit)
+    line("", "σci as stress at 0.1 % strain, fit", strain_colour, render::Line::solid,
+         [&](double x) { return by_strain.fit->at(x); });
   // Eq. 11, and Martin's fit to laboratory tests as section 3.3 quotes it.
   const auto published = [&](const char* id) { return study.published_value(id); };
   const double sigma_c = published("envelope_peak_sigma_c"), intercept = published("initiation_intercept"),
                slope = published("initiation_slope");
-  line("published fits, in the same colours", peak_colour, render::Line::dash,
+  line("published fits, in the same colours", "published peak, fit", peak_colour, render::Line::dash,
        Published{sigma_c, published("envelope_peak_m"), 1});
-  line("", damage_colour, render::Line::dash,
+  line("", "published crack damage, fit", damage_colour, render::Line::dash,
        Published{sigma_c, published("envelope_damage_m"), published("envelope_damage_s")});
-  line("", strain_colour, render::Line::dash, [&](double x) { return intercept + slope * x; });
-  line("Martin’s laboratory peak", {0.4, 0.4, 0.4}, render::Line::dot,
+  line("", "published σci, fit", strain_colour, render::Line::dash, [&](double x) { return intercept + slope * x; });
+  line("Martin’s laboratory peak", "published: Martin’s laboratory peak", {0.4, 0.4, 0.4}, render::Line::dot,
        Published{published("martin_sigma_c"), published("martin_m"), 1});
   const render::Colour range_colour{0.5, 0.5, 0.5};
-  line("laboratories’ σ_{ci}, Eq. 12", range_colour, render::Line::dash_dot,
+  line("range of Eq. 12 for σ_{ci}, with our UCS", "Eq. 12 for σci with our UCS, lower", range_colour,
+       render::Line::dash_dot,
        [&](double x) { return laboratories.share_low * found.ucs + laboratories.slope_low * x; });
-  line("", range_colour, render::Line::dash_dot,
+  line("", "Eq. 12 for σci with our UCS, upper", range_colour, render::Line::dash_dot,
        [&](double x) { return laboratories.share_high * found.ucs + laboratories.slope_high * x; });
   add_laboratory_tests(chart, study);
   chart.legend = render::Chart::Legend::below;
@@ -300,12 +309,13 @@ FigureContent confinement_curves(const StudyResult& study) {
   const bool followed = mark_end_of_loading(whole, cases) && study.scenario;
   content.panels.push_back(
       {.id = "stress",
-       .caption =
-           followed ? fmt::format("Axial stress against axial strain, from the isotropic state to {:g} times the "
-                                  "strain of the peak. Crosses: {}; cracks, fragments, emission and energies are those "
-                                  "of that moment.",
-                                  study.scenario->real("compression.follow"), end_of_loading_words(*study.scenario))
-                    : "Axial stress against axial strain, from the isotropic state to the end of loading.",
+       .caption = followed
+                      ? fmt::format("Axial stress against the axial strain of the gauge, from the isotropic state to "
+                                    "{:g} times the strain of the ends at the peak. Crosses: {}; cracks, fragments, "
+                                    "emission and energies are those "
+                                    "of that moment.",
+                                    study.scenario->real("compression.follow"), end_of_loading_words(*study.scenario))
+                      : "Axial stress against axial strain, from the isotropic state to the end of loading.",
        .alt = "Stress-strain curves; peaks of " + peaks + ".",
        .content = whole});
   render::Chart start = against_strain(cases, {"axial_stress", "Axial stress σ₁ (MPa)", 1e-6}, small_strain(cases));
@@ -370,7 +380,10 @@ FigureContent confinement_envelopes(const StudyResult& study) {
   const std::string fits = said.empty() ? "too few pressures for a fit" : joined(said, "; ");
   content.panels.push_back(
       {.id = "",
-       .caption = "Strengths against confining pressure with fitted envelopes; the tensile strength is drawn at −σ₃.",
+       .caption =
+           "Strengths against confining pressure with fitted envelopes; the tensile strength is drawn at −σ₃. Of "
+           "the four readings of crack initiation, those by the cracks and by the crack volumetric strain are not "
+           "drawn but in the table.",
        .alt = "Peak stresses from " + number(std::ranges::min(found.peak.sigma_1), 3) + " to " +
               number(std::ranges::max(found.peak.sigma_1), 3) + " MPa. Fits: " + fits + ".",
        .content = envelope_chart(study, found, tension)});
@@ -420,7 +433,7 @@ FigureContent confinement_after_peak(const StudyResult& study) {
   const double reach = analysis::common_reach(points_of(cases));
   const ValueOf equal = analysis::stress_after_peak(reach);
   render::Series beside = means(cases, equal);
-  const std::string same_strain = number(reach, 2) + " % of strain after the peak";
+  const std::string same_strain = number(reach, 2) + " % of strain of the ends after the peak";
   beside.label = same_strain;
   beside.colour = damage_colour;
   beside.line = render::Line::dash;
@@ -432,9 +445,10 @@ FigureContent confinement_after_peak(const StudyResult& study) {
        .caption =
            study.scenario
                ? fmt::format(
-                     "Residual stress over the peak: the mean over the last 5 % of the strain that each test was "
-                     "followed to, {:g} times that of its peak; and the stress at one and the same strain after "
-                     "the peak, as far as the shortest test goes.",
+                     "Residual stress over the peak: the mean over the last 5 % of the strain of the ends that each "
+                     "test "
+                     "was followed to, {:g} times that at its peak; and the stress at one and the same strain of the "
+                     "ends after the peak, as far as the shortest test goes.",
                      study.scenario->real("compression.follow"))
                : "Residual stress over the peak.",
        .alt = "Residual over peak " + ratios + "; at " + same_strain + " " + by_case(cases, equal, 2, "") + ".",

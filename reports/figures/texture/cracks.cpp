@@ -183,7 +183,7 @@ TextTable cracks_by_minerals(const dem::Record& record) {
 
 constexpr const char* density_caption =
     "Crack density, as area per volume (mm²/mm³), on the longitudinal section, smoothed over one grain diameter; one "
-    "scale for all.";
+    "scale for all panels of this figure.";
 
 std::string density_alt(const std::string& what, const CrackDensity& density) {
   double mean = 0;
@@ -262,7 +262,7 @@ FigureContent crack_counts(const StudyResult& study) {
   std::vector<std::string> parts;
   for (const CrackClass& one : crack_classes())
     parts.push_back(std::string(one.name) + " " + by_case(cases, number_of(one), 0, ""));
-  parts.push_back("in all " + by_case(cases, all_of, 0, ""));
+  parts.push_back("total " + by_case(cases, all_of, 0, ""));
   std::vector<std::string> labels, shares;
   for (const SeriesCase& item : cases) labels.push_back(item.label);
   for (const CrackClass& one : crack_classes())
@@ -357,7 +357,9 @@ FigureContent crack_stages(const StudyResult& study) {
     said.push_back(count(static_cast<double>(so_far)) + " (" + std::string(stage.said) + ")");
     discs.push_back(
         {.id = std::string(stage.moment) + "_discs",
-         .caption = "All cracks so far as discs in the transparent specimen" + discs_note(scale),
+         .caption = "All cracks so far as discs in the transparent specimen" + discs_note(scale) +
+                    " Stable growth is shown at the stress midway between σci and σcd, unstable growth midway between "
+                    "σcd and the peak, after the peak at 90 % of it.",
          .alt = crack_alt(*base.record, so_far, std::string(stage.name) + ":"),
          .content = transparent_cracks(*base.record, so_far, std::string(stage.name) + at_strain(*moment), 340, scale),
          .per_row = 5});

@@ -53,7 +53,7 @@ Emitter emitter_of(const StudyResult& study, const dem::Record& record) {
 
 FigureContent acoustic_emission(const StudyResult& study) {
   FigureContent content;
-  const auto pressed = swept(study, test_compression), pulled = swept(study, test_tension);
+  const auto pressed = swept_by_test(study, test_compression), pulled = swept_by_test(study, test_tension);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   std::vector<Emission> all;
   for (const SeriesCase& item : pressed)
@@ -68,7 +68,7 @@ FigureContent acoustic_emission(const StudyResult& study) {
   }
   add_emission(content, all);
   if (std::ranges::any_of(all, [](const Emission& e) { return analysis::is_followed(*e.looks.record); }))
-    content.finding += " Events, their energies and that heat are those up to the end of loading.";
+    content.finding += " All are counted up to the end of loading.";
   return content;
 }
 

@@ -77,14 +77,15 @@ void add_dissipated(FigureContent& content, const std::vector<SeriesCase>& cases
   content.panels.push_back(
       {.id = "dissipated",
        .caption = capital(item.label) +
-                  ": what was dissipated, per volume. Of a bond that breaks this is the strain energy that it "
-                  "held; damping is numerical, against the motion of the particles.",
+                  ": what was dissipated, per volume. For a broken bond: the strain energy it held; damping is "
+                  "numerical, against the motion of the particles." +
+                  (chart.marks.empty() ? "" : " Levels stand at their strain of the ends, not of the gauge."),
        .alt = "Dissipated by the end of loading, in kJ/m³: " + listed(ends) + ".",
        .content = std::move(chart)});
 }
 
 FigureContent energies(const StudyResult& study, std::string_view test) {
-  const auto cases = swept(study, test);
+  const auto cases = swept_by_test(study, test);
   // Against the strain of the platens, which only grows: that of the gauge springs back where a band fails outside it.
   FigureContent content = energy_figure(study, test, cases, "platen_strain", "Strain of the ends (%)", 100);
   add_dissipated(content, cases);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "engine/analysis/goodness.h"
 #include "reports/figures/fragments.h"
 #include "reports/figures/table.h"
 #include "reports/figures/texture/parts.h"
@@ -11,7 +12,7 @@ namespace reports::texture {
 
 FigureContent fragments(const StudyResult& study) {
   FigureContent content;
-  const auto pressed = swept(study, test_compression), pulled = swept(study, test_tension);
+  const auto pressed = swept_by_test(study, test_compression), pulled = swept_by_test(study, test_tension);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   std::vector<Broken> cases;
   for (const SeriesCase& item : pressed) cases.push_back(broken_of(*item.record, item));
@@ -61,10 +62,13 @@ FigureContent fragments(const StudyResult& study) {
                               .per_row = 2});
   content.panels.push_back(
       {.id = "table",
-       .caption =
-           "Parts at the end of loading. Exponent of the power law of their numbers of particles n, the largest "
-           "part left out. It is fitted where there are at least 30 parts of at least five sizes, and told where "
-           "it is not ruled out: at least 1 % of samples drawn from the law lie as far from it (p).",
+       .caption = has_size_law(cases) ? "Parts at the end of loading. Exponent of the power law of their numbers of "
+                                        "particles n, the largest part left out, fitted to at least 30 parts of at "
+                                        "least five sizes. p: share of samples drawn from the law that lie at least as "
+                                        "far from it; below " +
+                                            percent(dem::analysis::least_p, 0) + " no exponent is given."
+                                      : std::string("Parts at the end of loading; too few parts or sizes for a power "
+                                                    "law."),
        .alt = "",
        .content = fragments_table(cases),
        .per_row = 1});

@@ -13,15 +13,16 @@ namespace {
 
 struct Reading {
   dem::Quantity stress;
-  std::string_view name, how;
+  std::string_view name, how, said;
 };
 constexpr std::array readings{
-    Reading{quantity::initiation_by_stiffness, "Axial stiffness",
-            "the axial stiffness is a set share (key measure.stiffness_departure) below its early plateau"},
-    Reading{quantity::stress_at_strain, "Strain of 0.1 %", "the stress there"},
-    Reading{quantity::initiation_by_cracks, "One percent of cracks", "as many cracks as 1 % of those at the peak"},
+    Reading{quantity::initiation_by_stiffness, "Axial stiffness", "the axial stiffness is {} below its early plateau",
+            "from the axial stiffness"},
+    Reading{quantity::stress_at_strain, "Strain of 0.1 %", "the stress there", "at 0.1 % strain"},
+    Reading{quantity::initiation_by_cracks, "One percent of cracks", "as many cracks as 1 % of those at the peak",
+            "at 1 % of the cracks"},
     Reading{quantity::initiation_by_volume, "Crack volumetric strain",
-            "the volumetric strain less its elastic part turns to dilation"}};
+            "the volumetric strain less its elastic part turns to dilation", "from the crack volumetric strain"}};
 
 std::string cell(const Spread& spread, int digits) {
   if (spread.count == 0) return "not found";
@@ -36,7 +37,7 @@ FigureContent initiation_readings(const StudyResult& study) {
       "Crack initiation is where the axial stiffness begins to fluctuate, at about 0.1 % strain and 71.1 MPa, 34 % of "
       "the UCS; about 40 % in laboratory experiments.";
   content.rows = {"stress_at_0_1_percent_ar_1", "crack_initiation_strain"};
-  const auto cases = swept(study, test_compression);
+  const auto cases = swept_by_test(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
   TextTable table{{"Reading", "Where", "σci (MPa)", "Share of the peak (%)"}, {}};
@@ -48,10 +49,11 @@ FigureContent initiation_readings(const StudyResult& study) {
     };
     const Spread found = analysis::spread(cases.front(), stress);
     const Spread part = analysis::spread(cases.front(), share);
-    table.rows.push_back({std::string(one.name), std::string(one.how), cell(found, 3), cell(part, 3)});
-    std::string name(one.name);
-    name[0] = static_cast<char>(std::tolower(name[0]));
-    said.push_back(found.count == 0 ? "no value by " + name : fmt::format("{} MPa by {}", number(found.mean, 3), name));
+    const std::string departure = percent(study.scenario->real("measure.stiffness_departure"), 0);
+    table.rows.push_back(
+        {std::string(one.name), fmt::format(fmt::runtime(one.how), departure), cell(found, 3), cell(part, 3)});
+    said.push_back((found.count == 0 ? std::string("no value") : number(found.mean, 3) + " MPa") + " " +
+                   std::string(one.said));
   }
   content.panels.push_back(
       {.id = "",
@@ -60,7 +62,7 @@ FigureContent initiation_readings(const StudyResult& study) {
        .alt = "",
        .content = table,
        .per_row = 1});
-  content.finding = "Crack initiation at " + cases.front().label + ": " + listed(said) + ".";
+  content.finding = "Crack initiation " + at_case(cases.front()) + ": " + listed(said) + ".";
   return content;
 }
 

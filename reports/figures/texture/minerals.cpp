@@ -190,6 +190,7 @@ FigureContent mineral_envelopes(const StudyResult& study) {
       render::Series series = line_of(0, high, at);
       series.colour = colour;
       series.line = kind;
+      series.name = mineral + ", fit";
       if (!series.x.empty()) chart.series.push_back(series);
     };
     if (found.peak_fit) {

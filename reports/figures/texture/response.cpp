@@ -17,6 +17,8 @@ namespace reports::texture {
 namespace {
 
 const render::Colour grey{0.35, 0.35, 0.35};
+// Of values of all cases, beside charts where each case has a colour of its own.
+const render::Colour study_colour{0.45, 0.52, 0.58};
 
 render::Mark moment(double strain_percent, const std::string& label) {
   return {.kind = render::Mark::Kind::vertical,
@@ -169,7 +171,8 @@ render::Chart compression_curves(const std::vector<SeriesCase>& cases) {
   for (const char* kind : {"axial_strain", "lateral_strain"}) {
     for (const SeriesCase& item : cases) {
       render::Series series = curve(item.record->table("history"), {kind, "axial_stress", 100, 1e-6});
-      if (std::string_view(kind) == "axial_strain") series.label = item.label;
+      const bool axial = std::string_view(kind) == "axial_strain";
+      (axial ? series.label : series.name) = item.label + (axial ? "" : ", lateral");
       series.colour = item.colour;
       series.line = item.line;
       chart.series.push_back(series);
@@ -231,12 +234,12 @@ double published_at(const StudyResult& study, const dem::Parameter& axis, std::s
 
 render::Chart strength_bars(const StudyResult& study, const std::vector<Strength>& found, Spread Strength::*value,
                             const std::string& title, std::string_view published_id, std::string_view laboratory_key,
-                            std::size_t colour, int digits) {
+                            int digits) {
   render::Chart chart;
   render::Bars bars;
   bars.value_format = fmt::format("{{:.{}f}}", digits);
   bars.labels = {"this study"};
-  bars.colours = {render::palette(colour)};
+  bars.colours = {study_colour};
   bars.values.emplace_back();
   bars.errors.emplace_back();
   std::vector<double> published;
@@ -271,7 +274,7 @@ render::Chart ratio_chart(const StudyResult& study, const std::vector<Strength>&
   chart.x.title = axis_title(axis);
   chart.left.title = "UCS/TS";
   render::Series ours{
-      .label = "this study", .x = {}, .y = {}, .colour = render::palette(3), .marker = render::Marker::circle};
+      .label = "this study", .x = {}, .y = {}, .colour = study_colour, .marker = render::Marker::circle};
   std::vector<PublishedPoint> published, derived;
   bool repeated = false;
   for (const Strength& one : found) {
@@ -290,7 +293,7 @@ render::Chart ratio_chart(const StudyResult& study, const std::vector<Strength>&
   if (!repeated) ours.y_error.clear();
   chart.series.push_back(ours);
   add_published(chart, published, "published");
-  add_published(chart, derived, "of the published strengths");
+  add_published(chart, derived, "published (UCS over TS)");
   // A ratio has no bars from zero; a few percent of it should not look like a cliff either.
   double low = 1e300, high = 0;
   for (const render::Series& s : chart.series)
@@ -331,12 +334,12 @@ void add_strengths(FigureContent& content, const StudyResult& study, const std::
   content.panels.push_back({.id = "strength",
                             .caption = "Uniaxial compressive strength." + spread_note(found),
                             .alt = strengths_alt(found),
-                            .content = strength_bars(study, found, &Strength::ucs, "UCS", "ucs", "ucs", 0, 0)});
+                            .content = strength_bars(study, found, &Strength::ucs, "UCS", "ucs", "ucs", 0)});
   content.panels.push_back(
       {.id = "tensile_strength",
        .caption = "Tensile strength." + spread_note(found),
        .alt = strengths_alt(found),
-       .content = strength_bars(study, found, &Strength::ts, "TS", "tensile_strength", "tensile_strength", 2, 1)});
+       .content = strength_bars(study, found, &Strength::ts, "TS", "tensile_strength", "tensile_strength", 1)});
   content.panels.push_back({.id = "strength_ratio",
                             .caption = "Ratio of the two." + spread_note(found),
                             .alt = strengths_alt(found),
@@ -442,7 +445,7 @@ render::Chart contact_chart(const StudyResult& study, const std::vector<SeriesCa
       published.push_back(
           {static_cast<double>(i), study.published_value(fmt::format("inter_grain_share_ar_{:g}", cases[i].value))});
   }
-  add_published(chart, published, "published");
+  add_published(chart, published, "published, inter-grain");
   return chart;
 }
 
@@ -468,6 +471,15 @@ TextTable contact_table(const std::vector<SeriesCase>& cases) {
     table.rows.push_back(row);
   }
   return table;
+}
+
+// A logarithmic axis has no place for a class without a crack.
+std::string classes_without_cracks(const dem::Record& record) {
+  const auto numbers = crack_numbers(record, all_cracks);
+  std::vector<std::string> none;
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    if (numbers[k] == 0) none.emplace_back(crack_classes()[k].name);
+  return none.empty() ? "" : " None is " + joined(none, " or ") + ".";
 }
 
 }  // namespace
@@ -506,7 +518,7 @@ FigureContent progressive_failure(const StudyResult& study) {
                                    number(base.value_or_nan(quantity::young_modulus) * 1e-9, 3) + " GPa on.",
                             .content = stiffness_chart(study, base)});
   content.panels.push_back({.id = "cracks",
-                            .caption = "Cracks so far, by class.",
+                            .caption = "Cracks so far, by class." + classes_without_cracks(base),
                             .alt = "Numbers of cracks against axial strain; " +
                                    crack_words(crack_numbers(base, all_cracks)) + " at the end of loading.",
                             .content = cracks_chart(base)});
@@ -589,7 +601,7 @@ FigureContent dip_strengths(const StudyResult& study) {
 
 FigureContent dip_group_shares(const StudyResult& study) {
   FigureContent content = group_shares(study);
-  content.statement = "The dip changes the shares neither of the minerals nor of the contact groups.";
+  content.statement = "The dip changes neither the shares of the minerals nor those of the contact groups.";
   content.rows = {"inter_grain_share_change_with_dip"};
   return content;
 }
@@ -621,6 +633,23 @@ FigureContent group_shares(const StudyResult& study) {
   content.finding = "Inter-grain contacts are " + inter + " of all.";
   const std::string trend = trend_words(cases, quantity::inter_grain_share, swept_axis(study));
   if (!trend.empty()) content.finding += " Their share " + trend + ".";
+  const auto most = [&](const dem::Quantity& family, const auto& name_of) -> std::string {
+    double largest = -1;
+    std::string name;
+    for (const std::string& member : members_of(cases, family)) {
+      const auto shares = over_cases(cases, family, member);
+      const auto [low, high] = std::ranges::minmax(shares);
+      if (high - low > largest) largest = high - low, name = name_of(member);
+    }
+    return largest < 0 ? "" : name + ", by " + number(largest, 2) + " points";
+  };
+  const std::string mineral = most(quantity::mineral_share, [](const std::string&m) { return words(m); }),
+                    group = most(quantity::contact_share, [&](const std::string&m) {
+                      return "that " + contact_group(minerals_of(*cases.front().record), m);
+                    });
+  if (cases.size() > 1 && !mineral.empty() && !group.empty())
+    content.finding += " Between the cases the mineral whose share differs most is " + mineral +
+                       "; the contact group is " + group + ".";
   return content;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "reports/figures/table.h"
 #include "reports/figures/texture/parts.h"
@@ -79,6 +80,12 @@ render::Point along(const render::Point& from, const render::Point& direction, d
   return {from[0] + distance * direction[0], from[1] + distance * direction[1], from[2] + distance * direction[2]};
 }
 
+// The horizontal direction across the long axis of the ellipsoid.
+render::Point view_of(const Grain& grain) {
+  const double flat = std::hypot(grain.axis[0], grain.axis[1]);
+  return flat > 1e-9 ? render::Point{grain.axis[1] / flat, -grain.axis[0] / flat, 0} : render::Point{0, -1, 0};
+}
+
 // Spheres of one grain, its long axis (red, dashed) and a short axis (gold, dashed), seen along the other short axis; where
 // the long axis dips, the horizontal (grey) stands for the short axis.
 Picture cluster_picture(const StudyResult& study, const SeriesCase& item, std::size_t index, double reach, bool dips) {
@@ -96,9 +103,7 @@ Picture cluster_picture(const StudyResult& study, const SeriesCase& item, std::s
   render::Scene scene;
   scene.spheres.push_back(std::move(cluster));
   // Seen along the horizontal direction across the long axis; lines lie in front of the spheres.
-  const double flat = std::hypot(grain.axis[0], grain.axis[1]);
-  const render::Point view =
-      flat > 1e-9 ? render::Point{grain.axis[1] / flat, -grain.axis[0] / flat, 0} : render::Point{0, -1, 0};
+  const render::Point view = view_of(grain);
   const render::Point& a = grain.axis;
   const render::Point across{view[1] * a[2] - view[2] * a[1], view[2] * a[0] - view[0] * a[2],
                              view[0] * a[1] - view[1] * a[0]};
@@ -130,6 +135,14 @@ Picture cluster_picture(const StudyResult& study, const SeriesCase& item, std::s
           .legend = {{{0.75, 0.05, 0.05}, "long axis of the ellipsoid"},
                      {other_colour, dips ? "horizontal" : "short axis of the ellipsoid"},
                      {own_colour, "long axis of the grown grain"}}};
+}
+
+// Angle between the own axis of a grown grain and the plane of its picture: an axis that points at the reader looks short.
+std::string out_of_plane(const Grain& grain) {
+  const render::Point view = view_of(grain);
+  const double towards =
+      std::abs(grain.own_axis[0] * view[0] + grain.own_axis[1] * view[1] + grain.own_axis[2] * view[2]);
+  return fixed(std::asin(std::min(1.0, towards)) * 180 / std::numbers::pi, 0) + "°";
 }
 
 // Of the particles of a grain, in a unit of its own.
@@ -222,9 +235,10 @@ FigureContent grain_cluster(const StudyResult& study) {
     content.panels.push_back(
         {.id = item.id,
          .caption = fmt::format(
-             "Grain {}, {}; half axes of its ellipsoid {:.2f} and {:.2f} mm, of the grown grain {:.2f} and {:.2f} mm.",
+             "Grain {}, {}; half axes of its ellipsoid {:.2f} and {:.2f} mm; principal half axes of the grown grain "
+             "{:.2f} and {:.2f} mm, the long one at {} to the plane of the picture.",
              *index, mineral, 1e3 * grain.semi_long, 1e3 * grain.semi_short, 1e3 * grain.own_long,
-             1e3 * grain.own_short),
+             1e3 * grain.own_short, out_of_plane(grain)),
          .alt = fmt::format(
              "Cluster of {} spheres of grain {} ({}) with its long axis of {:.2f} mm and short axis of {:.2f} mm.",
              grain.particles, *index, mineral, 2e3 * grain.semi_long, 2e3 * grain.semi_short),
@@ -236,13 +250,15 @@ FigureContent grain_cluster(const StudyResult& study) {
   const double first = cluster_volume(*cases.front().record, *index);
   for (std::size_t i = 1; i < cases.size(); ++i)
     volumes.push_back(number(cluster_volume(*cases[i].record, *index) / first, 2) + " (" + cases[i].label + ")");
-  content.finding =
-      fmt::format("The ellipsoids have one volume by construction. Grown, grain {} has {}", *index, listed(counts));
+  content.finding = fmt::format("All ellipsoids have the same volume by construction. Grown, grain {} has {}", *index,
+                                listed(counts));
   if (cases.size() > 1)
     content.finding += fmt::format(": {} times its volume at {}", listed(volumes), cases.front().label);
-  content.finding +=
-      fmt::format(". Measured by second moments along the set axis, the mean aspect ratio over all grains is {}.",
-                  by_case(cases, quantity::realised_ar, 3));
+  content.finding += fmt::format(
+      ". Measured by second moments along and across the set axis, which is another measure than the principal half "
+      "axes, "
+      "the mean aspect ratio over all grains is {}.",
+      by_case(cases, quantity::realised_ar, 3));
   return content;
 }
 
