@@ -148,7 +148,17 @@ std::string case_label(const StudyResult& study, const CaseResult& result, bool 
                                                 : parameter.symbol.empty() || !usual || *usual != value;
     if (told && !part.empty()) parts.push_back(part);
   }
-  if (parts.empty() && !aspect.empty()) parts.push_back(aspect);
+  if (parts.empty() && !aspect.empty()) {
+    // Beside cases that differ in a choice, and in nothing that results are plotted against, it is the one they start from.
+    const bool base = std::ranges::any_of(result.parameters, [&](const auto& one) {
+      return one.first != "test" && one.first != "seed" && !dem::find_parameter(study.parameters, one.first).axis &&
+             varies(study, one.first);
+    });
+    const bool plotted = std::ranges::any_of(result.parameters, [&](const auto& one) {
+      return one.first != "test" && dem::find_parameter(study.parameters, one.first).axis && varies(study, one.first);
+    });
+    parts.push_back(base && !plotted ? "base case" : aspect);
+  }
   return parts.empty() ? capital(words(result.id)) : joined(parts, ", ");
 }
 
