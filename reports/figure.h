@@ -94,7 +94,7 @@ enum class Agreement { agrees, disagrees, undecided };
 struct FigureContent {
   std::vector<Panel> panels;
   std::string statement;  ///< what the paper says of this figure, in our words; nothing that its source does not say
-  std::string finding;  ///< what ours shows, with numbers from the records; the word before it is composed from these:
+  std::string finding;   ///< what ours shows, with numbers from the records; the word before it is composed from these:
   std::string headline;  ///< what the findings of the report begin with, where no result of a case says it
   std::vector<std::string> rows;       ///< ids of the published numbers that the statement stands on
   std::optional<Agreement> agreement;  ///< by the figure's own measure, where no number is published

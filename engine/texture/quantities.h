@@ -289,7 +289,7 @@ inline constexpr Quantity energy_residual =
     measured(dem::quantity::energy_residual, loaded,
              "Largest residual of the energy account over max(W, 1 % of the largest W), W the work that came in.");
 inline constexpr Quantity stress_imbalance{.id = "stress_imbalance",
-                                           .name = "Imbalance of the two ends, root mean square",
+                                           .name = "Imbalance of the two loaded sides, root mean square",
                                            .digits = 2,
                                            .kind = QuantityKind::diagnostic,
                                            .tests = loaded,
@@ -298,7 +298,7 @@ inline constexpr Quantity stress_imbalance{.id = "stress_imbalance",
                                                "peak stress; the check “equilibrium” limits it."};
 inline constexpr Quantity largest_stress_imbalance{
     .id = "largest_stress_imbalance",
-    .name = "Imbalance of the two ends, largest of any sample",
+    .name = "Imbalance of the two loaded sides, largest of any sample",
     .digits = 2,
     .kind = QuantityKind::diagnostic,
     .tests = loaded,

@@ -322,8 +322,8 @@ std::string laws_words(const std::vector<Emission>& all) {
   std::vector<std::string> said;
   if (!laws.empty() && common) {
     const auto one = std::ranges::find_if(all, [](const Emission& e) { return e.own.has_value(); });
-    said.push_back("From " + begin_text(*one->law) + ", the magnitude common to all cases, b is " + joined(laws, "; ") +
-                   ". From the lowest magnitude of a case alone it is " + joined(own, "; ") + ".");
+    said.push_back("From " + begin_text(*one->law) + ", the magnitude common to all cases with a fit, b is " +
+                   joined(laws, "; ") + ". From the lowest magnitude of a case alone it is " + joined(own, "; ") + ".");
   } else if (!laws.empty()) {
     said.push_back(capital(joined(laws, "; ")) + ".");
   }
@@ -399,8 +399,7 @@ void add_emission(FigureContent& content, std::vector<Emission> all) {
                             .per_row = 2});
   content.panels.push_back({.id = "magnitudes",
                             .caption = "Events by magnitude, M = 2/3 (log₁₀ E − 4.8) with all released energy E in J; "
-                                       "maximum-likelihood lines, from the lowest magnitude at which the catalogue is "
-                                       "complete and a straight line is not rejected.",
+                                       "maximum-likelihood lines, from the magnitude that the table gives.",
                             .alt = laws_words(all),
                             .content = magnitude_chart(all),
                             .per_row = 2});

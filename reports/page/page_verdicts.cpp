@@ -88,7 +88,7 @@ std::string role_text(const Comparison& row, const std::vector<Comparison>& rows
         const auto other = std::ranges::find(rows, id, &Comparison::id);
         if (other != rows.end()) names.push_back("“" + other->quantity + "”");
       }
-      return "Not counted: follows from " + (names.empty() ? "others" : listed(names)) + ".";
+      return "Follows from " + (names.empty() ? "others" : listed(names)) + ".";
     }
     case Role::stated:
     case Role::derived:
@@ -117,7 +117,19 @@ std::string deviation_text(const Comparison& row) {
   if (row.relative) return with_sign(fixed(100 * *row.deviation, decimals)) + " %";
   constexpr double tens = 10;  // 99.9 points are not 100
   const int digits = std::abs(*row.deviation) < tens ? 2 : 3;
-  return with_unit(with_sign(number(*row.deviation, digits)), difference_unit(row.unit, *row.deviation));
+  std::string shown = number(*row.deviation, digits);
+  // No finer than ours is printed: 50.1 % is 0.1 points from 50 %, not 0.068.
+  const std::string ours = computed_text(row);
+  const std::string_view amount = std::string_view(ours).substr(0, ours.find_first_not_of("−0123456789.\u2212"));
+  if (const std::size_t point = amount.find('.');
+      point != std::string_view::npos && ours.find("×") == std::string::npos) {
+    const auto most = static_cast<int>(amount.size() - point - 1);
+    const std::size_t own = shown.find('.');
+    if (own != std::string::npos && shown.find("×") == std::string::npos &&
+        static_cast<int>(shown.size() - own - 1) > most)
+      shown = fixed(*row.deviation, most);
+  }
+  return with_unit(with_sign(shown), difference_unit(row.unit, *row.deviation));
 }
 
 PageData comparisons_data(const Comparisons& comparisons) {
@@ -210,6 +222,9 @@ PageData laboratory_data(const StudyResult& study) {
     rows.push_back(item);
   }
   PageData block;
+  block.set("has_deviations", std::ranges::any_of(found, [](const LaboratoryRow& row) {
+              return laboratory_text(row.number).find("±") != std::string::npos;
+            }));
   block.set("counts", laboratory_tally(found, small ? study.scenario->scale() : ""));
   block.set("source", laboratory_source(*study.scenario));
   block.set("rows", rows);

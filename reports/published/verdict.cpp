@@ -73,6 +73,12 @@ void Tally::add(Role role, Verdict verdict, bool is_trend) {
   }
   if (role == Role::derived) ++derived;
   if (role == Role::follows) ++follows;
+  if (verdict == Verdict::not_computed) {
+    fitted_not_computed += role == Role::fitted ? 1 : 0;
+    theory_not_computed += role == Role::theory ? 1 : 0;
+    derived_not_computed += role == Role::derived ? 1 : 0;
+    follows_not_computed += role == Role::follows ? 1 : 0;
+  }
   if (role != Role::number) return;
   trends += is_trend ? 1 : 0;
   switch (verdict) {
@@ -142,13 +148,16 @@ std::string tally_text(const Tally& counts, std::string_view scale) {
   }
   std::vector<std::string> apart;
   if (counts.stated > 0) apart.push_back(stated_text(counts));
-  if (counts.derived > 0) apart.push_back(fmt::format("{} derived from published numbers", counts.derived));
-  if (counts.follows > 0)
-    apart.push_back(fmt::format("{} that follow{} from others", counts.follows, counts.follows == 1 ? "s" : ""));
-  if (counts.fitted > 0) apart.push_back(fmt::format("{} to which a choice was fitted", counts.fitted));
-  if (counts.theory > 0) {
-    apart.push_back(fmt::format("{} that compare{} theory with theory", counts.theory, counts.theory == 1 ? "s" : ""));
-  }
+  const auto say_apart = [&](int number, int not_computed, std::string_view one, std::string_view many) {
+    if (number == 0) return;
+    apart.push_back(fmt::format("{} {}{}", number, number == 1 ? one : many,
+                                not_computed > 0 ? fmt::format(" ({} not computed)", not_computed) : ""));
+  };
+  say_apart(counts.derived, counts.derived_not_computed, "derived from published numbers",
+            "derived from published numbers");
+  say_apart(counts.follows, counts.follows_not_computed, "that follows from others", "that follow from others");
+  say_apart(counts.fitted, counts.fitted_not_computed, "to which a choice was fitted", "to which a choice was fitted");
+  say_apart(counts.theory, counts.theory_not_computed, "that checks a formula", "that check a formula");
   if (!apart.empty()) text += (text.empty() ? "Counted separately: " : " Counted separately: ") + listed(apart) + ".";
   return text;
 }

@@ -58,6 +58,7 @@ struct Tally {
   int fitted = 0, theory = 0, stated = 0, derived = 0, follows = 0;
   /// Of `stated`; the rest is not judged at this scale.
   int stated_met = 0, stated_missed = 0, stated_undecided = 0, stated_not_computed = 0;
+  int fitted_not_computed = 0, theory_not_computed = 0, derived_not_computed = 0, follows_not_computed = 0;
   int trends = 0;  ///< of those that count
   /// met to not_computed
   [[nodiscard]] int numbers() const { return met + missed + undecided + not_judged + not_computed; }

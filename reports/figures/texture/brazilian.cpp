@@ -90,7 +90,8 @@ std::string turning_words(const std::vector<SeriesCase>& cases) {
   }
   if (turns.empty()) return "";
   return " By its peak the disc has rotated by " + listed(turns) +
-         ", because only a few particles of its rim bear, and there is no friction; on the flat parts of the curve it "
+         ", because only a few particles of its rim bear, and the platens are without friction; on the flat parts of "
+         "the curve it "
          "rolls on to the next ones.";
 }
 

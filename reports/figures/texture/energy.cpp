@@ -79,7 +79,10 @@ void add_dissipated(FigureContent& content, const std::vector<SeriesCase>& cases
        .caption = capital(item.label) +
                   ": what was dissipated, per volume. For a broken bond: the strain energy it held; damping is "
                   "numerical, against the motion of the particles." +
-                  (chart.marks.empty() ? "" : " Levels stand at their strain of the ends, not of the gauge."),
+                  (chart.marks.empty() ? ""
+                   : record.has(quantity::initiation_strain)
+                       ? " σ_ci, σ_cd and the peak stand at their strain of the ends, not of the gauge."
+                       : " The peak stands at its strain of the ends, not of the gauge."),
        .alt = "Dissipated by the end of loading, in kJ/m³: " + listed(ends) + ".",
        .content = std::move(chart)});
 }
