@@ -348,7 +348,7 @@ TEST_CASE("cases are told apart by what sets them apart") {
       .cases = {{"a", base.parameters, &base, ""}, {"b", small.parameters, &small, ""}, {"c_d", {}, nullptr, "failed"}},
       .quantities = dem::texture::quantities(),
       .parameters = dem::texture::parameters()};
-  CHECK(reports::case_label(study, study.cases[0]) == "AR 1");
+  CHECK(reports::case_label(study, study.cases[0]) == "base case");  // all have AR 1
   CHECK(reports::case_label(study, study.cases[1]) == "grain diameters × 0.675");
   CHECK(reports::case_label(study, study.cases[2]) == "C d");
 }
