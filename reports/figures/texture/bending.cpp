@@ -58,7 +58,7 @@ double bed_of(const dem::Record& record, double x, double half, double side, dou
   return bed;
 }
 
-/// `notched`: some body of the figure has a notch, so that all pictures have one key.
+/// `notched`: some body of the figure has a notch, so that all pictures have one caption.
 Panel cracks_panel(const StudyResult& study, const SeriesCase& item, const Bent& bent, const std::string& what,
                    bool notched) {
   const Size size = size_of(*item.record);
@@ -74,14 +74,12 @@ Panel cracks_panel(const StudyResult& study, const SeriesCase& item, const Bent&
     scene.camera.frame = {{{-half, -half, -room}, {half, half, size.height + room}}};
     scene.height = static_cast<int>(std::lround(scene.width * (size.height + 2 * room) / size.diameter));
   };
-  Panel panel = cracks_at_end(study, item,
-                              "The " + what +
-                                  " on its strips, cut along its middle plane, with the cracks near it at the "
-                                  "end of loading" +
-                                  first_seed({item}) + ".",
-                              picture_width, load);
-  if (notched) std::get<Picture>(panel.content).legend.push_back({notch_colour, "notch"});
-  return panel;
+  return cracks_at_end(study, item,
+                       "The " + what +
+                           " on its strips, cut along its middle plane, with the cracks near it at the "
+                           "end of loading" +
+                           first_seed({item}) + (notched ? "; the white slot is the notch." : "."),
+                       picture_width, load);
 }
 
 constexpr const char* load_title = "Load P (kN)";

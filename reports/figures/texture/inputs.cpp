@@ -19,7 +19,7 @@ namespace {
 constexpr int narrow = 320;                           // px, of pictures beside each other
 const render::Colour platen{0.05, 0.52, 0.58};        // as no mineral is
 const render::Colour frame_colour{0.24, 0.24, 0.24};  // axes of the specimen
-const render::Colour seed_colour{0.05, 0.52, 0.58};
+const render::Colour seed_colour{0.30, 0.76, 0.82};
 
 render::Point turned(const render::Point& p, double dip_direction, double dip) {
   // R_z(dip direction) R_y(-dip): the long axis x goes to (cos dip cos dd, cos dip sin dd, sin dip).
