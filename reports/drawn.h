@@ -28,7 +28,7 @@ struct DrawnPanel {
   TextTable table{};  ///< when the panel is a table
   int per_row = 1;
   bool whole_width = false;          ///< see Panel
-  std::string note{};                ///< "Drawn from 10 000 of 48 211 points; the CSV has all."
+  std::string note{};                ///< "Drawn from 10 000 of 48 211 points; data/energy.csv has all."
   std::vector<std::string> files{};  ///< relative to the output folder
   int width = 0, height = 0;         ///< of the image, px
 };

@@ -43,24 +43,31 @@ bool needs_powers(double value) {
   return std::isfinite(value) && value != 0 && !(size >= 1e-4 && size < 1e7);
 }
 
+namespace {
+
+// Halves are rounded away from zero, as a reader checks them, though binary fractions lie to either side of them.
+double halves_away(double value) { return value * (1 + 1e-12); }
+
+}  // namespace
+
 std::string number(double value, int digits) {
   if (!std::isfinite(value)) return "not a number";
   if (value == 0) return "0";
   if (needs_powers(value)) return scientific(value, digits);
   const int before = static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
-  return dressed(fmt::format("{:.{}f}", value, std::max(0, digits - before)));
+  return dressed(fmt::format("{:.{}f}", halves_away(value), std::max(0, digits - before)));
 }
 
 std::string scientific(double value, int digits) {
   if (!std::isfinite(value)) return "not a number";
   if (value == 0) return "0";
-  const std::string text = fmt::format("{:.{}e}", value, std::max(0, digits - 1));
+  const std::string text = fmt::format("{:.{}e}", halves_away(value), std::max(0, digits - 1));
   const std::size_t e = text.find('e');
   return dressed(text.substr(0, e)) + " × " + power_of_ten(std::stoi(text.substr(e + 1)));
 }
 
 std::string fixed(double value, int places) {
-  return std::isfinite(value) ? dressed(fmt::format("{:.{}f}", value, places)) : "not a number";
+  return std::isfinite(value) ? dressed(fmt::format("{:.{}f}", halves_away(value), places)) : "not a number";
 }
 
 std::string percent(double fraction, int places) { return fixed(100 * fraction, places) + " %"; }
@@ -86,9 +93,7 @@ std::string count(double value) { return fixed(value, 0); }
 
 std::string seeds_text(std::size_t seeds) { return seeds == 1 ? "one seed" : fmt::format("{} seeds", seeds); }
 
-std::string no_trend_text(std::size_t seeds) {
-  return seeds_text(seeds) + (seeds == 1 ? " tells" : " tell") + " no trend";
-}
+std::string no_trend_text(std::size_t seeds) { return seeds_text(seeds) + " cannot show a trend"; }
 
 std::string listed(const std::vector<std::string>& items) {
   std::string text;

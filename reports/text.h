@@ -36,7 +36,7 @@ std::string count(double value);
 
 /// "one seed", "3 seeds".
 std::string seeds_text(std::size_t seeds);
-/// "one seed tells no trend", "2 seeds tell no trend": there are too few for an interval of the slope.
+/// "one seed cannot show a trend", "2 seeds cannot show a trend": there are too few for an interval of the slope.
 std::string no_trend_text(std::size_t seeds);
 
 /// "a, b and c".

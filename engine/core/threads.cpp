@@ -19,6 +19,8 @@ constexpr int spins = 1000;  // 20 to 50 microseconds: more than threads of a st
 
 constexpr double window = 0.1;                                 // s: many turns of the scheduler
 constexpr double first_interval = 0.4, longest_interval = 60;  // s
+constexpr double lasting = 4;                                  // s on more threads that were not luck
+constexpr int calm_at_first = 2, calm = 5;                     // windows in a row with a core, before more threads come
 constexpr std::size_t turns = 5;
 constexpr double hopeless = 0.75, plain = 1.3;  // ratios that need no further turn
 constexpr double gain = 1.05;                   // that makes more threads worth it: fewer leave room for others
@@ -55,11 +57,13 @@ Clocks system_clocks() {
 
 int Pace::threads(int most) {
   if (most != most_) {
-    most_ = now_ = most;
-    interval_ = first_interval;
-    since_ = 0;
+    most_ = most;
+    now_ = 1;
+    calm_ = 0;
+    interval_ = wait_ = first_interval;
+    since_ = stood_ = 0;
     ratios_.clear();
-    next(Phase::steady);
+    next(Phase::first);
   }
   return phase_ == Phase::trial ? tried_ : now_;
 }
@@ -81,13 +85,26 @@ void Pace::next(Phase phase) {
   thread_ = clocks_.thread();
 }
 
-// Back to steady work, on another number of threads or on the same.
-void Pace::settle(bool changed, double seldom) {
-  interval_ = changed ? first_interval : std::min(seldom * interval_, longest_interval);
+// Back to steady work, on as many threads as before; the next trial comes later.
+void Pace::settle(double seldom) {
+  interval_ = std::min(seldom * interval_, longest_interval);
   up_ = !up_;
   since_ = 0;
   ratios_.clear();
   next(Phase::steady);
+}
+
+// Back to steady work, on another number of threads. Beside busy processes a few lucky windows make more threads look
+// better: where they did not last, the next wait for them is twice as long.
+void Pace::change(int threads) {
+  const bool luck = threads < now_ && stood_ < lasting;
+  if (threads > now_) {
+    wait_ = interval_;
+    stood_ = 0;
+  }
+  now_ = threads;
+  interval_ = luck ? 2 * wait_ : first_interval;
+  settle(1);
 }
 
 void Pace::done(double work) {
@@ -95,19 +112,23 @@ void Pace::done(double work) {
   work_ += work;
   seconds_ += seconds;
   since_ += seconds;
-  if (most_ <= 1 || seconds_ < window || work_ <= 0) return;
+  stood_ += seconds;
+  const bool first = phase_ == Phase::first;
+  if (most_ <= 1 || seconds_ < window || (work_ <= 0 && !first)) return;
   const double rate = work_ / seconds_;
   // Asked once a window: the question itself may end the thread's turn.
   const bool crowd = clocks_.thread() - thread_ < crowded * (clocks_.wall() - wall_);
+  calm_ = crowd ? 0 : calm_ + 1;
+  if (first) {
+    if (calm_ >= calm_at_first) now_ = most_;
+    return next(crowd || now_ > 1 ? Phase::steady : Phase::first);
+  }
   if (phase_ == Phase::trial) {
-    if (crowd && tried_ > now_) return settle(false, 2);  // others may be gone soon
+    if (crowd && tried_ > now_) return settle(2);  // others may be gone soon
     trial_rate_ = rate;
     return next(Phase::check);
   }
-  if (crowd && now_ > 1) {
-    now_ /= 2;
-    return settle(true);
-  }
+  if (crowd && now_ > 1) return change(now_ / 2);
   if (phase_ == Phase::check) {  // the rates of before the trial and after it
     const bool fewer = tried_ < now_;
     const double ratio = 2 * trial_rate_ / (rate_ + rate);
@@ -117,12 +138,11 @@ void Pace::done(double work) {
     if (!seen && ratios_.size() < turns) return next(Phase::trial);
     std::ranges::nth_element(ratios_, ratios_.begin() + static_cast<std::ptrdiff_t>(ratios_.size() / 2));
     const bool better = ratios_[ratios_.size() / 2] > (fewer ? 1 : gain);
-    if (better) now_ = tried_;
-    return settle(better);
+    return better ? change(tried_) : settle(4);
   }
   rate_ = rate;
   next(Phase::steady);
-  if (since_ < interval_ || (crowd && other() > now_)) return;
+  if (since_ < interval_ || (calm_ < calm && other() > now_)) return;
   tried_ = other();
   next(Phase::trial);
 }

@@ -29,16 +29,18 @@ struct Clocks {
 };
 Clocks system_clocks();
 
-/// How many threads serve a long piece of work best, found while it runs. Where other processes keep the cores busy,
-/// half as many: a thread that waits for its core keeps all others waiting, and how long is a matter of chance that no
-/// short trial tells. Where cores are free, now and then tenths of a second on half as many, or on twice as many again,
-/// in turn with as many as now; the faster number by the median of up to five turns is kept. It asks more seldom while
-/// nothing changes.
+/// How many threads serve a long piece of work best, found while it runs. It begins with one, and takes all of them once
+/// this one has had its core to itself. Where other processes keep the cores busy, half as many: a thread that waits for
+/// its core keeps all others waiting, and how long is a matter of chance that no short trial tells. Where cores are free,
+/// now and then tenths of a second on half as many, or on twice as many again, in turn with as many as now; the faster
+/// number by the median of up to five turns is kept. It asks more seldom while nothing changes, and where more threads
+/// did not last. A trial costs more than its time on a busy machine: a thread that sleeps and wakes loses its core to
+/// those that never do.
 class Pace {
  public:
   explicit Pace(Clocks clocks = system_clocks()) : clocks_(std::move(clocks)) {}
 
-  /// How many now; all of them until something else was seen to be better.
+  /// How many now.
   [[nodiscard]] int threads(int most);
   /// The same, of a stretch of work that begins now.
   [[nodiscard]] int begin(int most);
@@ -46,12 +48,14 @@ class Pace {
   void done(double work);
 
  private:
-  enum class Phase { steady, trial, check };
+  enum class Phase { first, steady, trial, check };
   [[nodiscard]] int other() const;
   void next(Phase phase);
-  void settle(bool changed, double seldom = 4);
+  void settle(double seldom);
+  void change(int threads);
 
   int most_ = 0, now_ = 0, tried_ = 0;
+  int calm_ = 0;     ///< windows in a row in which the thread that asks had its core
   bool up_ = false;  ///< more threads are tried next, where there are more
   Phase phase_ = Phase::steady;
   Clocks clocks_;
@@ -59,6 +63,7 @@ class Pace {
   double work_ = 0, seconds_ = 0;     ///< of this window's stretches
   double wall_ = 0, thread_ = 0;      ///< the clocks as this window began
   double since_ = 0, interval_ = 0;   ///< s since the last trial, and between trials
+  double stood_ = 0, wait_ = 0;       ///< s since there were last more threads, and the wait before that
   double rate_ = 0, trial_rate_ = 0;  ///< of the last windows
   std::vector<double> ratios_ = {};   ///< of this trial to the windows before and after it, turn by turn
 };

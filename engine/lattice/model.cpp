@@ -13,7 +13,7 @@
 namespace dem::lattice {
 namespace {
 
-constexpr std::string_view version = "lattice 2";
+constexpr std::string_view version = "lattice 3";
 
 // One case as the scenario asks for it.
 struct Wanted {

@@ -33,7 +33,6 @@ std::span<const Quantity> quantities() {
                                        first_sliding,
                                        a1_stress,
                                        a1_strain,
-                                       a1_stress_after,
                                        a1_time,
                                        sliding_start,
                                        sliding_duration,

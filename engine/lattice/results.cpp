@@ -182,10 +182,9 @@ void tension_results(Record& r, const Settings& s, const StrengthTest& test, con
 // The loading step before the peak in which most bonds opened: A1 of the paper's Fig. 5.
 struct Opening {
   std::size_t before = 0;  // sample
-  double low = 0;          // smallest stress up to the recovery
   std::int64_t bonds = 0;  // that opened; 0: none did
 };
-Opening largest_opening(const std::vector<Sample>& h, std::int64_t peak_step, const StressStrain& m) {
+Opening largest_opening(const std::vector<Sample>& h, std::int64_t peak_step) {
   constexpr std::int64_t window = 300;  // steps: opening runs through the block like the crack in tension
   Opening found;
   std::int64_t most = 0;
@@ -199,10 +198,6 @@ Opening largest_opening(const std::vector<Sample>& h, std::int64_t peak_step, co
     }
   }
   found.bonds = most;
-  found.low = m.stress(h[found.before]);
-  for (std::size_t i = found.before; i < h.size() && h[i].step < h[found.before].step + 5 * window; ++i) {
-    found.low = std::min(found.low, m.stress(h[i]));
-  }
   return found;
 }
 
@@ -224,10 +219,9 @@ void compression_results(Record& r, const Settings& s, const StrengthTest& test,
   };
   put_finite(r, quantity::first_opening, before_first(&Sample::opening));
   put_finite(r, quantity::first_sliding, before_first(&Sample::sliding));
-  if (const Opening a1 = largest_opening(h, test.peak().step, m); a1.bonds > 0) {
+  if (const Opening a1 = largest_opening(h, test.peak().step); a1.bonds > 0) {
     r.put(quantity::a1_stress, 1e-6 * m.stress(h[a1.before]));
     r.put(quantity::a1_strain, m.strain(h[a1.before]));
-    r.put(quantity::a1_stress_after, 1e-6 * a1.low);
     r.put(quantity::a1_time, h[a1.before].time);
   }
 

@@ -154,9 +154,8 @@ void draw_bars(Paper& paper, const ChartLayout& layout) {
 }
 
 std::string printed(const Bars& bars, double value) {
-  std::string text = fmt::format(fmt::runtime(bars.value_format), value);
-  if (!text.empty() && text.front() == '-') text.replace(0, 1, "\u2212");
-  return text;
+  std::string text = with_thousands(fmt::format(fmt::runtime(bars.value_format), std::abs(value)));
+  return value < 0 && text.find_first_of("123456789") != std::string::npos ? "\u2212" + text : text;
 }
 
 }  // namespace

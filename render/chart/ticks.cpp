@@ -138,9 +138,20 @@ void Range::take(double value) {
   any = true;
 }
 
+std::string with_thousands(std::string text) {
+  constexpr std::size_t fewest = 5, group = 3;
+  const std::size_t whole = std::min(text.find_first_not_of("0123456789"), text.size());
+  if (whole < fewest) return text;
+  for (std::size_t at = whole - group;; at -= group) {
+    text.insert(at, "\u202f");
+    if (at <= group) return text;
+  }
+}
+
 std::string plain_number(double value, int digits) {
   std::string text = fmt::format("{:.{}f}", std::abs(value), digits);
   const bool zero = text.find_first_not_of("0.") == std::string::npos;
+  text = with_thousands(std::move(text));
   return value < 0 && !zero ? minus + text : text;
 }
 

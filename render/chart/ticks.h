@@ -34,6 +34,8 @@ Scale make_scale(const Axis& axis, const Range& data, int wanted, bool tight);
 
 /// A number with `digits` decimals and a proper minus sign; never "-0".
 std::string plain_number(double value, int digits);
+/// The digits that a text begins with in groups of three, apart by narrow no-break spaces, from five digits on.
+std::string with_thousands(std::string text);
 
 /// "10⁻³"
 std::string power_of_ten(int exponent);

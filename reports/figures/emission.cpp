@@ -270,11 +270,11 @@ std::optional<analysis::GutenbergRichter> law_of(const Emission& e, double from 
 }
 
 TextTable table_of(const std::vector<Emission>& all) {
-  TextTable table{
-      {"Case", "Cracks", "Events", "Cracks of the largest event", "Energy of all events (mJ)",
-       "Energy of all events over that of broken bonds in the ledger", "Window in space (mm)", "Window in time (µs)",
-       "Largest magnitude", "Fitted from M", "Events from there on", "b ± standard error", "p"},
-      {}};
+  TextTable table{{"Case", "Cracks", "Events", "Cracks of the largest event", "Energy of all events (mJ)",
+                   "Energy of all events over that of broken bonds in the ledger", "Window in space (mm)",
+                   "Window in time (µs)", "Largest magnitude", "Fitted from M", "Events of that magnitude or more",
+                   "b ± standard error (Shi & Bolt 1982)", "p"},
+                  {}};
   for (const Emission& e : all) {
     std::size_t most = 0;
     double largest = -1e9;
@@ -330,8 +330,19 @@ std::string laws_words(const std::vector<Emission>& all) {
   if (from.size() > 1)
     said.emplace_back("The lines begin at different magnitudes, so that these b-values cannot be compared closely.");
   if (!bent.empty()) said.push_back("No b-value, as magnitudes follow no straight line: " + joined(bent, "; ") + ".");
-  if (!without.empty()) said.push_back("Too few events for a b-value: " + joined(without, "; ") + ".");
+  if (without.size() == all.size() && all.size() > 1)
+    said.emplace_back("No case has enough events for a b-value.");
+  else if (!without.empty())
+    said.push_back("Too few events for a b-value: " + joined(without, "; ") + ".");
   return joined(said, " ");
+}
+
+// Whether a line of the rates is broken: by a step without cracks between others with some.
+bool has_gap(const render::Chart& rates) {
+  return std::ranges::any_of(rates.series, [](const render::Series& s) {
+    const auto gap = std::ranges::find_if(s.y, [](double rate) { return !std::isfinite(rate); });
+    return std::any_of(gap, s.y.end(), [](double rate) { return std::isfinite(rate); });
+  });
 }
 
 // b-values are compared from one magnitude on, the highest of those that the cases are complete from, where all have a law
@@ -392,17 +403,24 @@ void add_emission(FigureContent& content, std::vector<Emission> all) {
        .alt = fmt::format("{} cracks are {} events.", base.hits.all.size(), base.events.size()),
        .content = activity_chart(base),
        .per_row = 2});
-  content.panels.push_back({.id = "rate",
-                            .caption = "Cracks per strain while the stress rises to its peak.",
-                            .alt = "Cracks per strain against stress, up to the peak.",
-                            .content = rate_chart(all),
-                            .per_row = 2});
-  content.panels.push_back({.id = "magnitudes",
-                            .caption = "Events by magnitude, M = 2/3 (log₁₀ E − 4.8) with all released energy E in J; "
-                                       "maximum-likelihood lines, from the magnitude that the table gives.",
-                            .alt = laws_words(all),
-                            .content = magnitude_chart(all),
-                            .per_row = 2});
+  const render::Chart rates = rate_chart(all);
+  content.panels.push_back(
+      {.id = "rate",
+       .caption = std::string("Cracks per strain while the stress rises to its peak") +
+                  (has_gap(rates) ? "; intervals without cracks are left out and break the line." : "."),
+       .alt = "Cracks per strain against stress, up to the peak.",
+       .content = rates,
+       .per_row = 2});
+  const bool tried = std::ranges::any_of(all, [](const Emission& e) { return e.law.has_value(); });
+  const bool fitted = std::ranges::any_of(all, [](const Emission& e) { return e.law && e.law->holds(); });
+  content.panels.push_back(
+      {.id = "magnitudes",
+       .caption = std::string("Events by magnitude, M = 2/3 (log₁₀ E − 4.8) with all released "
+                              "energy E in J") +
+                  (fitted ? "; maximum-likelihood lines, from the magnitude that the table gives." : "."),
+       .alt = laws_words(all),
+       .content = magnitude_chart(all),
+       .per_row = 2});
   if (base.hits.forces) {
     const Sources found = sources_of(base);
     content.panels.push_back(
@@ -417,9 +435,12 @@ void add_emission(FigureContent& content, std::vector<Emission> all) {
   content.panels.push_back(
       {.id = "table",
        .caption = "Events up to the end of loading, their energy over that of bonds broken in tension and shear in "
-                  "the ledger at that time, and the law of their magnitudes, fitted to at least 30 events. p: share of "
-                  "catalogues drawn from the straight line that lie at least as far from it; below " +
-                  percent(analysis::least_p, 0) + " no b is given. A low p tells that the catalogue bends.",
+                  "the ledger at that time, and the law of their magnitudes, " +
+                  (tried ? "fitted to at least 30 events. p: share of catalogues drawn from the straight line that lie "
+                           "at least as far from it; below " +
+                               percent(analysis::least_p, 0) +
+                               " no b is given. A low p means that the magnitudes depart from a straight line."
+                         : std::string("which needs at least 30 events.")),
        .alt = "",
        .content = table_of(all),
        .per_row = 1});
@@ -431,9 +452,9 @@ void add_emission(FigureContent& content, std::vector<Emission> all) {
   for (const Emission& e : all)
     content.panels.push_back(
         {.id = "map_" + e.looks.id,
-         .caption = fmt::format("Events as spheres whose volume is their energy, on one scale for all; the largest has "
+         .caption = fmt::format("Events as spheres whose volume is their energy{}; the largest has "
                                 "{} {}. None is drawn smaller than half a particle’s diameter.",
-                                number(factor * largest, 3), unit),
+                                all.size() > 1 ? ", on one scale for all" : "", number(factor * largest, 3), unit),
          .alt = fmt::format("{} events at {}.", e.events.size(), e.looks.label),
          .content = map_of(e, largest),
          .per_row = per_row});

@@ -80,6 +80,7 @@ render::Chart ledger_chart(const dem::Table& history, const std::string& x_colum
                       .outlined = true,
                       .inside = true};
     const auto values = history.real(term.column);
+    if (std::ranges::all_of(values, [](double value) { return value == 0; })) continue;  // no key for what is not there
     for (std::size_t i = 0; i < x.size(); ++i) band.high[i] += unit.first * values[i];
     base = band.high;
     chart.bands.push_back(std::move(band));
@@ -133,7 +134,8 @@ std::string shares_alt(const dem::Record& record) {
     if (term.role != analysis::LedgerTerm::Role::share) continue;
     std::string label = term.label;
     label[0] = static_cast<char>(std::tolower(label[0]));
-    parts.push_back(label + " " + percent(history.real(term.column)[end] / work[end], 1));
+    const double share = history.real(term.column)[end] / work[end];
+    parts.push_back(label + " " + (share == 0 ? "0 %" : percent(share, 1)));
   }
   return std::string("shares of the work at the end of ") +
          (analysis::has_end_of_loading(record) ? "loading: " : "the test: ") + listed(parts) + ".";

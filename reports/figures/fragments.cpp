@@ -116,6 +116,13 @@ Picture fragments_picture(const Broken& broken, double apart, const std::array<r
   return picture;
 }
 
+std::string key_values_words(const std::vector<Picture>& pictures) {
+  const bool counts = std::ranges::any_of(pictures, [](const Picture& picture) {
+    return std::ranges::any_of(picture.legend, [](const LegendEntry& entry) { return !entry.count.ends_with('%'); });
+  });
+  return counts ? "Percentages are of the volume; the others are counts." : "Percentages are of the volume.";
+}
+
 std::optional<analysis::PowerLaw> size_law(const Broken& broken) { return analysis::fit_power_law(numbers_of(broken)); }
 
 bool has_size_law(const std::vector<Broken>& cases) {
@@ -156,8 +163,9 @@ render::Chart fragments_by_number(const std::vector<Broken>& cases) {
                           .y_error = {},
                           .name = broken.label + ", fit"};
       for (double n = law->least; n < 2e4; n *= 1.25) {
-        const double parts = static_cast<double>(law->fragments) * law->at_least(n);
-        if (parts < 0.7) break;
+        const double parts =
+            1 + static_cast<double>(law->fragments) * law->at_least(n);  // and the largest, as the points
+        if (parts < 1.7) break;
         line.x.push_back(n);
         line.y.push_back(parts);
       }
@@ -197,9 +205,10 @@ render::Chart fragments_by_volume(const std::vector<Broken>& cases) {
 }
 
 TextTable fragments_table(const std::vector<Broken>& cases) {
-  TextTable table{{"Case", "Parts above 5 % of the volume", "Largest (%)", "Second (%)", "Third (%)",
-                   "Smaller parts of two particles or more", "Single particles", "Exponent of n (95 % interval)", "p"},
-                  {}};
+  TextTable table{
+      {"Case", "Parts above 5 % of the volume", "Largest (%)", "Second (%)", "Third (%)",
+       "Other parts of two particles or more", "Single particles", "Exponent of the sizes (95 % interval)", "p"},
+      {}};
   for (const Broken& broken : cases) {
     const std::size_t main = broken.parts.of_at_least(large), single = broken.parts.single();
     const auto law = size_law(broken);
@@ -232,6 +241,9 @@ std::string fragments_words(const Broken& broken) {
                     : fmt::format("{} {}s", count(static_cast<double>(n)), one);
   };
   if (main == 1 && smaller + single == 0) return broken.label + ": still in one part";
+  if (main == 0)
+    return fmt::format("{}: {} of two particles or more, the largest with {} of the volume, and {}", broken.label,
+                       counted(smaller, "part"), percent(broken.parts.share(0), 1), counted(single, "single particle"));
   if (main == 1)
     return fmt::format("{}: one part with {} of the volume, {} and {}", broken.label, percent(broken.parts.share(0), 1),
                        counted(smaller, "smaller part"), counted(single, "single particle"));

@@ -24,6 +24,9 @@ Broken broken_of(const dem::Record& record, const SeriesCase& looks);
 /// distance from there; `frame` is that of the specimen as it was.
 Picture fragments_picture(const Broken& broken, double apart, const std::array<render::Point, 2>& frame, int width);
 
+/// What the values beside the keys of these pictures are: shares of the volume, and counts where a key has one.
+std::string key_values_words(const std::vector<Picture>& pictures);
+
 /// Number of parts with at least as many particles, with the power laws through them; and the share of the volume in parts not
 /// larger than a diameter.
 render::Chart fragments_by_number(const std::vector<Broken>& cases);

@@ -146,7 +146,7 @@ std::string told(const analysis::Estimate& estimate, int digits, std::string_vie
   if (!estimate.has_interval()) return value + " (no interval from so few points)";
   const bool is_known = estimate.low > 0 || estimate.high < 0;
   return fmt::format("{} (95 % interval {} to {}{})", value, number(estimate.low, digits),
-                     number(estimate.high, digits), is_known ? "" : ": undecided");
+                     number(estimate.high, digits), is_known ? "" : ": contains zero");
 }
 
 std::optional<Panel> missing_cases(const StudyResult& study, std::string_view test) {

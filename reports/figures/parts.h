@@ -37,7 +37,7 @@ render::Series means(const std::vector<SeriesCase>& cases, const ValueOf& value)
 /// The straight line through a value of all cases and repeats against the swept parameter.
 std::optional<analysis::Trend> trend_of(const std::vector<SeriesCase>& cases, const ValueOf& value);
 /// "rises by 1.2 MPa per degree of dip (95 % interval 0.4 to 2, p = 0.01)", that it shows no clear trend, or
-/// "has the slope 1.2 MPa per degree of dip: one seed tells no trend"; "" with one case.
+/// "has the slope 1.2 MPa per degree of dip: one seed cannot show a trend"; "" with one case.
 std::string trend_words(const std::vector<SeriesCase>& cases, const ValueOf& value, std::string_view unit,
                         const dem::Parameter& axis);
 /// "AR 1", "AR 2", ...
@@ -55,7 +55,7 @@ std::string trend_words(const std::vector<SeriesCase>& cases, const dem::Quantit
                         const dem::Parameter& axis);
 /// "29.1 (95 % interval 27 to 31.2)", shorter in tables: "29.1 (27 to 31.2)".
 std::string estimate_text(const analysis::Estimate& estimate, int digits, bool in_table = false);
-/// In a sentence: "29.1 MPa (95 % interval 27 to 31.2)"; "... −10 to 61: undecided)" where the interval holds zero, so that
+/// In a sentence: "29.1 MPa (95 % interval 27 to 31.2)"; "... −10 to 61: contains zero)" where it does, so that
 /// the points tell not even a sign.
 std::string told(const analysis::Estimate& estimate, int digits, std::string_view unit = {});
 

@@ -95,8 +95,10 @@ DrawnPanel described(const Panel& panel, const std::string& name) {
   if (const auto* chart = std::get_if<render::Chart>(&panel.content)) {
     const Sampled picture = sampled(*chart, points_in_a_picture);
     if (picture.drawn < picture.all) {
-      drawn.note = fmt::format("Drawn from {} of {} points; the CSV has all.",
-                               count(static_cast<double>(picture.drawn)), count(static_cast<double>(picture.all)));
+      const auto csv =
+          std::ranges::find_if(drawn.files, [](const std::string& file) { return file.ends_with(".csv"); });
+      drawn.note = fmt::format("Drawn from {} of {} points; {} has all.", count(static_cast<double>(picture.drawn)),
+                               count(static_cast<double>(picture.all)), csv == drawn.files.end() ? "the CSV" : *csv);
     }
     drawn.width = chart->width;
     drawn.height = chart->height;

@@ -75,8 +75,32 @@ bool varies(const StudyResult& study, std::string_view parameter) {
   return values.size() > 1;
 }
 
+/// Whether it is a choice that each test has its own of, as each has its default, and the study runs several of them.
+bool of_each_test(const StudyResult& study, const dem::Parameter& parameter) {
+  return !parameter.symbol.empty() && std::ranges::any_of(study.cases, [&](const CaseResult& result) {
+    return std::ranges::any_of(result.parameters, [&](const auto& one) {
+      return one.first != parameter.id && one.first != "test" &&
+             dem::find_parameter(study.parameters, one.first).symbol == parameter.symbol;
+    });
+  });
+}
+
+/// Whether the cases differ in such a choice, those of one test or of two.
+bool varies_over_tests(const StudyResult& study, const dem::Parameter& parameter) {
+  std::set<std::string> values;
+  for (const CaseResult& result : study.cases) {
+    for (const auto& [id, value] : result.parameters) {
+      if (id != "test" && dem::find_parameter(study.parameters, id).symbol == parameter.symbol)
+        values.insert(parameter_text(value));
+    }
+  }
+  return values.size() > 1;
+}
+
 /// Whether it tells anything of a case: not where it is nothing in all cases of the test ("σ₃ 0 MPa" of a tension).
 bool is_told(const StudyResult& study, const CaseResult& result, std::string_view parameter) {
+  const dem::Parameter& declared = dem::find_parameter(study.parameters, parameter);
+  if (of_each_test(study, declared)) return varies_over_tests(study, declared);
   if (!varies(study, parameter)) return false;
   return std::ranges::any_of(study.cases, [&](const CaseResult& one) {
     const auto* value = one.test() == result.test() ? dem::find_value(one.parameters, parameter) : nullptr;
@@ -144,8 +168,9 @@ std::string case_label(const StudyResult& study, const CaseResult& result, bool 
     const std::string part = parameter_words(parameter, value);
     if (parameter.axis && aspect.empty()) aspect = part;
     const bool told = with_seed && id == "seed" ? varies(study, id)
-                      : parameter.axis          ? is_told(study, result, id)
-                                                : parameter.symbol.empty() || !usual || *usual != value;
+                      : parameter.axis || of_each_test(study, parameter)
+                          ? is_told(study, result, id)
+                          : parameter.symbol.empty() || !usual || *usual != value;
     if (told && !part.empty()) parts.push_back(part);
   }
   if (parts.empty() && !aspect.empty()) {

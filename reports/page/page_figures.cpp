@@ -184,8 +184,8 @@ PageData panel_data(const DrawnPanel& panel, const std::string& figure, const st
   constexpr double apart = 2;  // mm
   data.set("slim", shared.slim);
   data.set("beside", fmt::format("{:.1f}", print_width(panel) + apart));
-  const bool broad = !panel.image.empty() && !panel.image.ends_with(".png") &&
-                     (panel.whole_width || panel.width > render::column_width);
+  const bool drawn = !panel.image.ends_with(".png");
+  const bool broad = !panel.image.empty() && (panel.whole_width || (drawn && panel.width > render::column_width));
   data.set("broad", broad);
   data.set("shape", broad ? "wide-shape broad" : !is_tall(panel) ? "wide-shape" : shared.slim ? "tall slim" : "tall");
   if (!panel.image.empty()) {

@@ -205,9 +205,10 @@ PageData findings_data(const StudyResult& study, const Comparisons& comparisons,
   if (!results.empty()) add(results, "plain");
   if (!comparisons.rows.empty()) {
     const Tally counts = comparisons.tally();
-    add(joined_notes({tally_text(counts, comparisons.scale), missed_text(comparisons)}), counts.missed > 0 ? "bad"
-                                                                                         : counts.met > 0  ? "good"
-                                                                                                           : "plain");
+    add(joined_notes({tally_text(counts, comparisons.scale), missed_text(comparisons)}),
+        counts.missed > 0                ? "bad"
+        : counts.met > counts.not_judged ? "good"
+                                         : "plain");
   }
   if (const std::vector<LaboratoryRow> rows = beside_laboratory(study); !rows.empty()) {
     const bool outside = std::ranges::count(rows, Verdict::missed, &LaboratoryRow::verdict) > 0;

@@ -154,8 +154,11 @@ PageData comparisons_data(const Comparisons& comparisons) {
     item.set("computed_value", both == 0 ? computed_text(row) : row.detail.substr(0, both));
     item.set("detail", detail);
     item.set("has_detail", !detail.empty());
-    item.set("deviation", deviation_text(row));
-    item.set("tolerance", reading ? "" : tolerance_text(row));
+    const std::string deviation = deviation_text(row), tolerance = reading ? "" : tolerance_text(row);
+    item.set("deviation", deviation);
+    item.set("tolerance", tolerance);
+    // Words where there is neither have the room of all three.
+    item.set("across", deviation == "–" && (reading || tolerance == "–"));
     // Another reading has no verdict of its own.
     item.set("verdict", reading ? "" : std::string(verdict_word(row.verdict)));
     item.set("has_verdict", !reading);

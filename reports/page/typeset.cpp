@@ -107,19 +107,20 @@ std::string with_indices(std::string_view text) {
 }
 
 bool is_unit(std::string_view word) {
-  constexpr std::array<std::string_view, 37> units{
+  constexpr std::array<std::string_view, 39> units{
       "%",   "m",   "mm",  "µm",   "nm",    "cm", "km", "mm²", "mm³", "m²",    "m³",   "Pa", "kPa",
       "MPa", "GPa", "N",   "kN",   "N/m",   "J",  "mJ", "µJ",  "kJ",  "kJ/m³", "J/m²", "s",  "ms",
-      "µs",  "s⁻¹", "m/s", "mm/s", "kg/m³", "kg", "K",  "°C",  "rad", "MPa√m", "k"};
+      "µs",  "s⁻¹", "m/s", "mm/s", "kg/m³", "kg", "K",  "°C",  "rad", "MPa√m", "k",    "R",  "W"};
   while (!word.empty() && std::string_view(".,;:)?").find(word.back()) != std::string_view::npos) word.remove_suffix(1);
   return std::ranges::find(units, word) != units.end();
 }
 
 // What a number belongs to: "Fig. 14c", "AR 1", "σ₃ 10 MPa".
 bool takes_number(std::string_view word) {
-  constexpr std::array<std::string_view, 21> names{"Fig.",    "Figs.",    "Eq.", "Eqs.", "Table", "Tables", "Section",
-                                                   "section", "Sections", "AR",  "σ₃",   "σₙ",    "dip",    "m",
-                                                   "M",       "b",        "≥",   "≤",    "<",     "±",      "p"};
+  constexpr std::array<std::string_view, 26> names{
+      "Fig.", "Figs.", "Eq.", "Eqs.", "Table", "Tables", "Section", "section", "Sections",
+      "AR",   "σ₃",    "σₙ",  "dip",  "m",     "M",      "b",       "≥",       "≤",
+      "<",    "±",     "p",   "s",    "slope", "spread", "TS",      "UCS"};
   for (const std::string_view opening : {"(", "“"}) {
     if (word.starts_with(opening)) word.remove_prefix(opening.size());
   }

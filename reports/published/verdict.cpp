@@ -155,7 +155,7 @@ std::string tally_text(const Tally& counts, std::string_view scale) {
   };
   say_apart(counts.derived, counts.derived_not_computed, "derived from published numbers",
             "derived from published numbers");
-  say_apart(counts.follows, counts.follows_not_computed, "that follows from others", "that follow from others");
+  say_apart(counts.follows, counts.follows_not_computed, "that follows from another", "that follow from others");
   say_apart(counts.fitted, counts.fitted_not_computed, "to which a choice was fitted", "to which a choice was fitted");
   say_apart(counts.theory, counts.theory_not_computed, "that checks a formula", "that check a formula");
   if (!apart.empty()) text += (text.empty() ? "Counted separately: " : " Counted separately: ") + listed(apart) + ".";

@@ -3,6 +3,7 @@
 
 #include <toml++/toml.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -12,6 +13,7 @@
 #include "engine/analysis/ending.h"
 #include "engine/analysis/ledger.h"
 #include "engine/core/files.h"
+#include "engine/lattice/quantities.h"
 #include "engine/texture/quantities.h"
 #include "reports/figures/parts.h"
 #include "reports/figures/sheet/parts.h"
@@ -160,7 +162,7 @@ TEST_CASE("a table of texts is numbers in its CSV, with units in the heads") {
 TEST_CASE("a fitted value is told with its interval, and as undecided where that holds zero") {
   const double none = std::nan("");
   CHECK(reports::told({25.6, 19, 31}, 3, "MPa") == "25.6 MPa (95 % interval 19.0 to 31.0)");
-  CHECK(reports::told({62.5, -18.7, 76.6}, 3, "°") == "62.5° (95 % interval \u221218.7 to 76.6: undecided)");
+  CHECK(reports::told({62.5, -18.7, 76.6}, 3, "°") == "62.5° (95 % interval \u221218.7 to 76.6: contains zero)");
   CHECK(reports::told({16, none, none}, 3) == "16.0 (no interval from so few points)");
 }
 
@@ -351,6 +353,27 @@ TEST_CASE("cases are told apart by what sets them apart") {
   CHECK(reports::case_label(study, study.cases[0]) == "base case");  // all have AR 1
   CHECK(reports::case_label(study, study.cases[1]) == "grain diameters × 0.675");
   CHECK(reports::case_label(study, study.cases[2]) == "C d");
+}
+
+TEST_CASE("a choice that each test has its own of is told in all tests or in none") {
+  const test::Scratch scratch;
+  const dem::Scenario scenario = synthetic::scenario(scratch.path());
+  using namespace dem::lattice::parameter;
+  static constexpr std::array declared{elements_y, planes_tension, planes_compression};
+  const auto study_of = [&](const std::string& in_compression) {
+    reports::StudyResult study{.scenario = &scenario, .cases = {}, .quantities = {}, .parameters = declared};
+    for (const double size : {2.0, 4.0})
+      study.cases.push_back(
+          {"a", {{"test", "tension"}, {"elements_y", size}, {"planes_tension", "rigid"}}, nullptr, ""});
+    study.cases.push_back(
+        {"c", {{"test", "compression"}, {"elements_y", 4.0}, {"planes_compression", in_compression}}, nullptr, ""});
+    return study;
+  };
+  const reports::StudyResult other = study_of("elastic"), alike = study_of("rigid");
+  CHECK(reports::case_label(other, other.cases[0]) == "n = 2, planes rigid");
+  CHECK(reports::case_label(other, other.cases[2]) == "n = 4, planes elastic");
+  CHECK(reports::case_label(alike, alike.cases[0]) == "n = 2");
+  CHECK(reports::case_label(alike, alike.cases[2]) == "n = 4");
 }
 
 TEST_CASE("a case is told by what varies in its test, and by its seed where each seed has a column") {

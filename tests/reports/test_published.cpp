@@ -226,7 +226,7 @@ TEST_CASE_FIXTURE(Fixture, "two points alone have no interval") {
   records.pop_back();
   const Comparison row = one(falls);
   CHECK(row.verdict == Verdict::undecided);
-  CHECK(std::get<std::string>(*row.computed) == "one seed tells no trend");
+  CHECK(std::get<std::string>(*row.computed) == "one seed cannot show a trend");
   CHECK(row.detail.find("slope") != std::string::npos);
   without_seeds(records);
   CHECK(one(falls).verdict == Verdict::met);  // nothing is left to chance
@@ -245,7 +245,7 @@ TEST_CASE_FIXTURE(Fixture, "the slopes of several seeds decide a trend, under th
   CHECK(repeated(4, 20, 0.5).verdict == Verdict::met);  // stronger packings: each falls for itself
   CHECK(repeated(4, 0, 20).verdict == Verdict::undecided);
   CHECK(repeated(2, 0, 0).verdict == Verdict::undecided);
-  CHECK(std::get<std::string>(*repeated(2, 0, 0).computed) == "2 seeds tell no trend");
+  CHECK(std::get<std::string>(*repeated(2, 0, 0).computed) == "2 seeds cannot show a trend");
   CHECK(repeated(1, 0, 0).verdict == Verdict::undecided);
   CHECK(*repeated(4, 0, 0.5).p_value < 0.05);
   CHECK(repeated(4, 0, 0.5).estimate->value == doctest::Approx(-5));

@@ -46,6 +46,10 @@ TEST_CASE("ticks stand at 1, 2 or 5 times a power of ten and their labels carry 
 TEST_CASE("negative numbers have a minus sign, not a hyphen, and zero has none") {
   CHECK(render::plain_number(-2.5, 1) == "\u22122.5");
   CHECK(render::plain_number(-0.001, 1) == "0.0");
+  CHECK(render::plain_number(2500, 0) == "2500");
+  CHECK(render::plain_number(-12345.6, 1) == "\u221212\u202f345.6");
+  CHECK(render::plain_number(1234567, 0) == "1\u202f234\u202f567");
+  CHECK(render::plain_number(100000, 0) == "100\u202f000");
 }
 
 TEST_CASE("any range gives a few ticks inside it, with labels that differ") {

@@ -93,13 +93,17 @@ Panel by_mode(const dem::Record& r, const std::string& id, double until, const s
           .per_row = 3};
 }
 
+constexpr double half_step = 5e-9;  // s: of cracks and of marks, whose times are rounded apart
+
 Panel by_time(const dem::Record& r, const std::string& id, double from, double to, const std::string& label,
               const render::Point& direction, const std::string& since, const std::string& broke) {
   const Cracks c = cracks_of(r);
   Picture p;
   p.scene = scene_of(r, direction);
   const auto alike = [&](std::size_t i) { return broke != "opened" || c.mode[i] == 0; };
-  const auto seen = [&](std::size_t i) { return alike(i) && c.time[i] >= from && c.time[i] <= to; };
+  const auto seen = [&](std::size_t i) {
+    return alike(i) && c.time[i] > from - half_step && c.time[i] < to + half_step;
+  };
   p.scene.discs = {
       discs_of(r, seen, [&](std::size_t i) { return time_colour((c.time[i] - from) / std::max(1e-12, to - from)); })};
   p.label = label;
@@ -111,10 +115,12 @@ Panel by_time(const dem::Record& r, const std::string& id, double from, double t
     drawn += seen(i);
   }
   const std::string end = since == "D₁" ? "D₂" : "C₂";
+  const std::string which =
+      drawn == all ? fmt::format("All {} bonds that {}", count(static_cast<double>(all)), broke)
+                   : fmt::format("{} of the {} bonds that {}: those from {} to {}", count(static_cast<double>(drawn)),
+                                 count(static_cast<double>(all)), broke, since, end);
   return {.id = id,
-          .caption = fmt::format("{} of the {} bonds that {}: those from {} to {}{}.",
-                                 count(static_cast<double>(drawn)), count(static_cast<double>(all)), broke, since, end,
-                                 direction == along_y ? ", seen along y" : ", by time since " + since),
+          .caption = which + (direction == along_y ? ", seen along y." : ", by time since " + since + "."),
           .alt = fmt::format("{} bonds broke in {} µs.", p.scene.discs[0].centre.size(), number(1e6 * (to - from), 3)),
           .content = p,
           .per_row = 3};
@@ -171,8 +177,7 @@ struct Front {
 };
 Front front_of(const dem::Record& r) {
   const Cracks c = cracks_of(r);
-  const double d1 = r.value_or_nan(quantity::failure_time), d2 = d1 + r.value_or_nan(quantity::crack_duration),
-               half_step = 5e-9;
+  const double d1 = r.value_or_nan(quantity::failure_time), d2 = d1 + r.value_or_nan(quantity::crack_duration);
   std::vector<std::size_t> first;
   Front f;
   double far = 0;
@@ -325,8 +330,11 @@ FigureContent crack_front(const StudyResult& study) {
     widths.push_back(number(r->value_or_nan(quantity::crack_speed), 4) + " m/s (" + planes + " planes)");
   }
   if (!fronts.empty()) said.push_back("between 10 and 90 % of its way the crack front runs at " + listed(fronts));
-  if (!few.empty())
-    said.push_back("with " + listed(few) + " it advances in fewer than three steps, which give no speed");
+  if (!few.empty() && !fronts.empty())
+    said.push_back("with " + listed(few) + " it advances there in fewer than three steps, too few for a speed");
+  else if (!few.empty())
+    said.push_back("between 10 and 90 % of its way the crack front advances in fewer than three steps (" + listed(few) +
+                   "), too few for a speed");
   if (!widths.empty()) said.push_back("the width of the block over the time from D₁ to D₂ gives " + listed(widths));
   if (said.empty()) return content;
   content.finding = sentence(said);

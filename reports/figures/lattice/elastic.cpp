@@ -63,7 +63,7 @@ MeanError mean_error(const std::vector<const dem::Record*>& records) {
   return m;
 }
 
-// "5 compressive strains from 10⁻⁶ to 10⁻³": those that were run.
+// "5 compressive strains from 10⁻⁶ to 10⁻³", "two compressive strains (10⁻⁶ and 10⁻³)": those that were run.
 std::string strains_words(const dem::Record& record) {
   const auto strains = record.table("elastic").real("axial_strain");
   const auto at = [](double strain) {
@@ -71,6 +71,8 @@ std::string strains_words(const dem::Record& record) {
     return text.starts_with("1 × ") ? text.substr(std::string_view("1 × ").size()) : text;
   };
   if (strains.size() == 1) return "one compressive strain of " + at(strains.front());
+  if (strains.size() == 2)
+    return fmt::format("two compressive strains ({} and {})", at(strains.front()), at(strains.back()));
   return fmt::format("{} compressive strains from {} to {}", strains.size(), at(strains.front()), at(strains.back()));
 }
 
@@ -79,7 +81,8 @@ std::string strains_words(const dem::Record& record) {
 FigureContent elastic_constants(const StudyResult& study) {
   FigureContent content;
   content.statement =
-      "At a compressive strain of 10⁻⁶ E and ν of the single unit are those of quartzite; errors grow with strain. For "
+      "At a compressive strain of 10⁻⁶, E and ν of the single unit are those of quartzite; errors grow with strain. "
+      "For "
       "blocks of several units they average about 0.6 % over strains from 10⁻⁶ to 10⁻³.";
   content.rows = {"unit_young_modulus",       "unit_poisson_ratio",       "unit_modulus_error_grows",
                   "unit_poisson_error_grows", "mean_error_young_modulus", "mean_error_poisson_ratio"};
@@ -92,7 +95,7 @@ FigureContent elastic_constants(const StudyResult& study) {
   const dem::Record& large = *records.back();
   content.panels.push_back(
       {.id = "young_modulus",
-       .caption = "Young’s modulus by number of elements.",
+       .caption = "Young’s modulus against compressive strain, by number of elements.",
        .alt = fmt::format("At the smallest strain {} GPa for {} elements and {} GPa for {}.",
                           number(small.value(quantity::young_modulus), 4), count(small.value(quantity::particles)),
                           number(large.value(quantity::young_modulus), 4), count(large.value(quantity::particles))),
@@ -100,7 +103,8 @@ FigureContent elastic_constants(const StudyResult& study) {
        .per_row = 1});
   content.panels.push_back(
       {.id = "poisson_ratio",
-       .caption = "Poisson’s ratio, mean of the two lateral directions.",
+       .caption =
+           "Poisson’s ratio, mean of the two lateral directions, against compressive strain, by number of elements.",
        .alt = fmt::format("At the smallest strain {} for {} elements and {} for {}.",
                           number(small.value(quantity::poisson_ratio), 4), count(small.value(quantity::particles)),
                           number(large.value(quantity::poisson_ratio), 4), count(large.value(quantity::particles))),
@@ -108,10 +112,9 @@ FigureContent elastic_constants(const StudyResult& study) {
        .per_row = 1});
   const MeanError error = mean_error(records);
   if (error.n > 0) {
-    content.finding =
-        fmt::format("Over {} of more than one unit and {}, the mean error of E is {} % and that of ν {} %.",
-                    error.n == 1 ? "one block" : fmt::format("{} blocks", error.n), strains_words(large),
-                    fixed(error.e, 1), fixed(error.nu, 1));
+    content.finding = fmt::format("For {} of several units, over {}, the mean error of E is {} % and that of ν {} %.",
+                                  error.n == 1 ? "the one block" : fmt::format("the {} blocks", error.n),
+                                  strains_words(large), fixed(error.e, 1), fixed(error.nu, 1));
   }
   if (small.value(quantity::particles) == 4) {
     content.finding += fmt::format(

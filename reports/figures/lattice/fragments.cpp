@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/analysis/goodness.h"
 #include "reports/figures/emission.h"
 #include "reports/figures/fragments.h"
 #include "reports/figures/lattice/parts.h"
@@ -85,7 +86,9 @@ void without_what_hides(Picture& picture, const analysis::Fragments& parts) {
     kept.radius.push_back(all.radius[i]);
     kept.colour.push_back(all.colour[i]);
   }
-  picture.legend.pop_back();
+  std::erase_if(picture.legend, [&](const auto& entry) {
+    return std::ranges::none_of(kept.colour, [&](const render::Colour& c) { return same(c, entry.colour); });
+  });
   picture.label += ", without " + count(static_cast<double>(parts.single())) +
                    " single particles and what hides the four largest parts";
 }
@@ -102,6 +105,14 @@ render::Outline box_of(const dem::Record& record) {
   return box;
 }
 
+// What the table says of the sizes of parts.
+std::string law_words() {
+  return " The exponent is that of a power law of their numbers of elements, the largest part left out, fitted to at "
+         "least 30 parts of at least five sizes; p is the share of samples drawn from that law that lie at least as "
+         "far from it, and below " +
+         percent(analysis::least_p, 0) + " no exponent is given.";
+}
+
 }  // namespace
 
 FigureContent fragments(const StudyResult& study) {
@@ -112,25 +123,33 @@ FigureContent fragments(const StudyResult& study) {
   for (const SeriesCase& item : failed(study)) cases.push_back(broken_of(*item.record, item));
   if (cases.empty()) return content;
   constexpr double apart = 0.3;
+  std::vector<Picture> pictures;
   for (const Broken& broken : cases) {
     const render::Outline box = box_of(*broken.record);
-    Picture picture = fragments_picture(broken, apart, {box.low, box.high}, 480);
-    without_what_hides(picture, broken.parts);
-    content.panels.push_back({.id = "apart_" + broken.id,
-                              .caption =
-                                  "Parts that hold together at the end, each moved outwards by 0.3 of its distance "
-                                  "from the middle. Percentages are of the volume; the others are counts.",
-                              .alt = fragments_words(broken) + ".",
-                              .content = std::move(picture),
-                              .per_row = 3});
+    pictures.push_back(fragments_picture(broken, apart, {box.low, box.high}, 480));
+    without_what_hides(pictures.back(), broken.parts);
   }
-  content.panels.push_back({.id = "table",
-                            .caption =
-                                "Parts at the end of the test. The published number is compared with the pieces of at "
-                                "least 2 % of the elements.",
-                            .alt = "",
-                            .content = fragments_table(cases),
-                            .per_row = 1});
+  const std::string caption = fmt::format(
+      "Parts that hold together at the end, each moved outwards by {:g} of its distance from the middle. {}", apart,
+      key_values_words(pictures));
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    content.panels.push_back({.id = "apart_" + cases[i].id,
+                              .caption = caption,
+                              .alt = fragments_words(cases[i]) + ".",
+                              .content = std::move(pictures[i]),
+                              .per_row = 3});
+  const double published = study.published_value("pieces");
+  content.panels.push_back(
+      {.id = "table",
+       .caption = fmt::format("Parts at the end of the test.{}{}", has_size_law(cases) ? law_words() : std::string(),
+                              std::isfinite(published)
+                                  ? fmt::format(" Only pieces of at least 2 % of the elements count towards the "
+                                                "published number ({}).",
+                                                count(published))
+                                  : std::string()),
+       .alt = "",
+       .content = fragments_table(cases),
+       .per_row = 1});
   std::vector<std::string> said;
   std::vector<const Broken*> clean;  // blocks that part and leave nothing small
   const auto parts_of = [](const Broken& broken) { return broken.parts.of_at_least(main_part); };

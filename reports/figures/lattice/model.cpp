@@ -185,7 +185,7 @@ FigureContent block(const StudyResult& study) {
   FigureContent content;
   content.statement =
       "Identical elements in hexagonal close packing stand between two smooth planes; bonded elements are joined by a "
-      "normal and a shear spring, which can break. Blocks of 2 to 30 elements along y have 4 to 37 681 elements.";
+      "normal and a shear spring, which can break. Blocks of 2 to 30 elements along y have 4 to 37 681 elements.";
   content.rows = {"block_elements_4", "block_elements_8", "block_elements_12"};
   const dem::Record* record = largest_record(study, 2500);
   if (!record) record = any_record(study);

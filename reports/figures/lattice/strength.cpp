@@ -64,10 +64,12 @@ render::Chart against_size(const StudyResult& study, const Test& test) {
     }
     if (other.x.empty()) continue;
     other = styled(other, fmt::format("{} planes", planes), colour++, render::Line::none);
-    other.marker = colour == 2 ? render::Marker::square : render::Marker::triangle;
+    other.marker = colour == 2 ? render::Marker::cross : render::Marker::triangle;
     chart.series.push_back(other);
   }
-  chart.series.push_back(line);  // last: it shows where others lie on it
+  // Where they lie on each other, a cross shows on our points, and these show on triangles.
+  const bool crossed = !chart.series.empty() && chart.series.back().marker == render::Marker::cross;
+  chart.series.insert(chart.series.end() - (crossed ? 1 : 0), line);
   for (const render::Series& s : chart.series) {
     for (const double y : s.y) {
       low = std::min(low, y);
@@ -196,6 +198,7 @@ FigureContent strength_choices(const StudyResult& study) {
       {"Test", "Elements", "Choice", "Strength (MPa)", "Against theory", "First fall by 5 % (MPa)", "Ledger residual"},
       {}};
   std::vector<std::string> nearest;  // choice, by test
+  std::string closest;               // that of the test before
   for (const Test& test : {tension, compression}) {
     const dem::Record* main = main_record(study, test.name);
     if (!main) continue;
@@ -221,11 +224,13 @@ FigureContent strength_choices(const StudyResult& study) {
     }
     if (best && std::isfinite(published)) {
       const std::string choice = choice_words(*best, *main);
-      nearest.push_back(fmt::format("in {} {} ({} elements) {}: {} % against {} %", test.name,
-                                    choice == "as the series" ? "the series itself" : choice,
-                                    count(best->value(quantity::particles)),
-                                    nearest.empty() ? "comes closest to the published mean of nine blocks" : "does",
+      const std::string kind = fmt::format("{} ({} elements)", choice == "as the series" ? "the series itself" : choice,
+                                           count(best->value(quantity::particles)));
+      const std::string verb = nearest.empty() ? "comes closest to the published mean of nine blocks" : "does";
+      nearest.push_back(fmt::format("in {} {}: {} % against {} %", test.name,
+                                    kind == closest ? "as well" : kind + " " + verb,
                                     with_sign(number(best->value_or_nan(test.error), 3)), shortest(published)));
+      closest = kind;
     }
   }
   std::ranges::stable_sort(table.rows, [](const auto& a, const auto& b) { return a[0] > b[0]; });

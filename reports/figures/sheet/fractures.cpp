@@ -32,11 +32,13 @@ std::string part(double value) {
 Panel map_panel(const StudyResult& study, const dem::Record& r, double strain, int per_row) {
   const auto n = crack_counts(r, strain);
   const std::string label = label_of(r, study);
+  const bool off =
+      n[static_cast<std::size_t>(CrackPlace::matrix)] > 0;  // beside the layer: some seem to be on its edge
   return {.id = r.case_id + "_" + part(strain),
           .caption = fmt::format(
-              "{} at {}: {}.",
+              "{} at {}: {}{}.",
               label == "this run" ? (layered(r) ? "Fractures of the layer" : "Fractures") : "Fractures, " + label + ",",
-              at_strain(r, strain), crack_words(r, strain)),
+              at_strain(r, strain), crack_words(r, strain), off ? "; a mark lies at the middle of its spring" : ""),
           .alt = fmt::format("Map of {} broken springs over the outlines of grains.", count(sum_of(n))),
           .content = fracture_map(r, strain, render::page_width / per_row),
           .per_row = per_row,
@@ -54,10 +56,12 @@ std::array<int, bins> binned(const std::vector<double>& angles) {
 std::string rose(const std::vector<double>& angles, double reference, std::string_view reference_words, int width) {
   const std::array<int, bins> n = binned(angles);
   const int most = std::max(1, *std::ranges::max_element(n));
-  const double c = 0.5 * width, outside = 0.48 * width, r = outside - 14;
+  // Beside its caption, alone, it takes less than a third of a page.
+  const double outside = std::min(0.48 * width, 150.0), r = outside - 14;
+  const double cx = 0.5 * width, cy = outside + 7;
   std::string body;
   for (const double share : {0.5, 1.0}) {
-    body += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"none\" stroke=\"#8a8a8a\"/>", c, c, share * r);
+    body += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"none\" stroke=\"#8a8a8a\"/>", cx, cy, share * r);
   }
   for (int turn = 0; turn < 2; ++turn) {
     for (int b = 0; b < bins; ++b) {
@@ -66,18 +70,18 @@ std::string rose(const std::vector<double>& angles, double reference, std::strin
       body += fmt::format(
           "<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}A{:.1f} {:.1f} 0 0 0 {:.1f} {:.1f}Z\" fill=\"#6f9fc0\" "
           "stroke=\"#0b3c5d\"/>",
-          c, c, c + length * std::cos(from), c - length * std::sin(from), length, length, c + length * std::cos(to),
-          c - length * std::sin(to));
+          cx, cy, cx + length * std::cos(from), cy - length * std::sin(from), length, length,
+          cx + length * std::cos(to), cy - length * std::sin(to));
     }
   }
   const double ux = std::cos(reference), uy = std::sin(reference);
   constexpr std::string_view dashed = "stroke=\"#bd4300\" stroke-width=\"2\" stroke-dasharray=\"7 4\"";
-  body += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>", c - outside * ux,
-                      c + outside * uy, c + outside * ux, c - outside * uy, dashed);
+  body += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>", cx - outside * ux,
+                      cy + outside * uy, cx + outside * ux, cy - outside * uy, dashed);
   // What the dashed line is, beside a piece of it.
-  const double below = c + outside + 18, sample = 22,
+  const double below = cy + outside + 18, sample = 22,
                wide = sample + 6 + 6.6 * static_cast<double>(reference_words.size());
-  const double start = std::max(0.0, c - wide / 2);
+  const double start = std::max(0.0, cx - wide / 2);
   body += fmt::format("<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{2:.1f}\" y2=\"{1:.1f}\" {3}/>", start, below - 4,
                       start + sample, dashed);
   body += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"12\" fill=\"#a04000\">{}</text>", start + sample + 6,
@@ -153,6 +157,13 @@ std::string shares_said(const std::vector<const dem::Record*>& runs, const Study
   }
   return fmt::format("{} lie at grain boundaries; by chance {} would.", listed(shares),
                      percent(between_by_chance(*runs.front()), 0));
+}
+
+/// "29 of 30 trends (97 %)": of a share of them.
+std::string part_of_trends(double share, std::size_t all, const std::string& label = "this run") {
+  const auto number = static_cast<double>(all);
+  return fmt::format("{} of {} {} ({}{})", count(std::round(share * number)), count(number),
+                     all == 1 ? "trend" : "trends", percent(share, 0), label == "this run" ? "" : "; " + label);
 }
 
 /// "30 trends": of the broken springs whose fracture is long enough to have one.
@@ -250,7 +261,7 @@ FigureContent rose_of_fractures(const StudyResult& study) {
          .content = rose(angles, r->text("test") == "compression" ? 0.0 : std::numbers::pi / 2,
                          "direction of compression", render::page_width / per_row),
          .per_row = per_row});
-    said.push_back(percent(share, 0) + " of " + trends_of(*r) + (alone ? "" : " (" + label + ")"));
+    said.push_back(part_of_trends(share, angles.size(), label));
     least = std::min(least, share);
     most = std::max(most, share);
   }
@@ -303,8 +314,8 @@ FigureContent radial_fractures(const StudyResult& study) {
        .alt = fmt::format("{} of the trends lie within 30° of the radius.", percent(share, 0)),
        .content = chart,
        .per_row = 1});
-  content.finding = fmt::format("{} of {} trends lie within 30° of the radius (by chance a third).", percent(share, 0),
-                                count(static_cast<double>(angles.size())));
+  content.finding =
+      fmt::format("{} lie within 30° of the radius (by chance a third).", part_of_trends(share, angles.size()));
   content.agreement = mainly(share, third);
   if (content.agreement == Agreement::undecided)
     content.finding += " Agreement takes half of them or more, disagreement a third or less.";
@@ -352,9 +363,10 @@ FigureContent spacing(const StudyResult& study) {
                                    number(r->value(quantity::spacing_over_thickness), 3));
   }
   if (r->has(quantity::spacing_scatter)) {
-    content.finding += fmt::format(", with a standard deviation of {} of the mean ({} for as many placed at random)",
-                                   percent(r->value(quantity::spacing_scatter), 0),
-                                   percent(r->value(quantity::spacing_scatter_chance), 0));
+    content.finding += fmt::format(
+        ", with a standard deviation of {} of the mean ({} would be expected for the same "
+        "number placed at random)",
+        percent(r->value(quantity::spacing_scatter), 0), percent(r->value(quantity::spacing_scatter_chance), 0));
   }
   content.finding += ".";
   const auto spacing = known(h.real("spacing_over_thickness"));

@@ -240,33 +240,33 @@ FigureContent flow(const StudyResult& study) {
     body += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" font-size=\"12\">{}</text>", x, y, text);
   };
   // As wide as half a page: it is read on a narrow screen as well.
-  constexpr double left = 26, wide = 244, right = left + wide, middle = left + wide / 2;
+  constexpr double left = 28, wide = 248, right = left + wide, middle = left + wide / 2;
   box_at(left, 2, wide, {"Grain map and sheet", "stiffness and strength drawn"}, "#eef2f6");
   // Springs break when a load step is complete, not after its parts.
   box_at(left, 66, wide,
-         {growth ? "One load step: grow the marked grains" : "One load step: move all particles",
-          growth ? "walls held; once springs are broken" : "affinely; once springs are broken",
+         {growth ? "One load step: grow marked grains," : "One load step: move all particles",
+          growth ? "walls held; once springs are broken," : "affinely; once springs are broken,",
           "in parts, each brought to equilibrium"},
          "#fbf3dd");
   box_at(left, 147, wide, {"Relax to equilibrium", "springs and contacts"}, "#e4efe6");
   box_at(left, 211, wide, {"A spring over its strength?", "largest tension over threshold"}, "#eef2f6");
   box_at(left, 275, wide, {"Record stress, energy, breaks", "last load step?"}, "#eef2f6");
-  box_at(296, 171, 100, {"Break that", "spring, keep", "its contact"}, "#f6dfd5");
-  box_at(316, 284, 60, {"End"}, "#eef2f6");
+  box_at(300, 171, 98, {"Break that", "spring, keep", "its contact"}, "#f6dfd5");
+  box_at(319, 284, 60, {"End"}, "#eef2f6");
   for (const auto& [from, to] : {std::pair{46, 65}, {127, 146}, {191, 210}, {255, 274}})
     arrow(middle, from, middle, to);
-  word(middle + 14, 269, "no");
-  arrow(right, 244, 346, 244, false);
-  arrow(346, 244, 346, 233);
-  word(290, 258, "yes");
-  arrow(346, 171, 346, 160, false);
-  arrow(346, 160, right + 1, 160);
-  arrow(right, 297, 315, 297);
-  word(292, 291, "yes");
-  arrow(left, 297, 8, 297, false);
-  arrow(8, 297, 8, 96, false);
-  arrow(8, 96, left - 1, 96);
-  word(17, 313, "no");
+  word(middle + 17, 269, "no");
+  arrow(right, 244, 349, 244, false);
+  arrow(349, 244, 349, 233);
+  word(295, 258, "yes");
+  arrow(349, 171, 349, 160, false);
+  arrow(349, 160, right + 1, 160);
+  arrow(right, 297, 318, 297);
+  word(295, 291, "yes");
+  arrow(left, 297, 5, 297, false);
+  arrow(5, 297, 5, 96, false);
+  arrow(5, 96, left - 1, 96);
+  word(13, 312, "no");
   content.panels.push_back(
       {.id = "",
        .caption = "The order of work.",

@@ -156,7 +156,7 @@ render::Colour colour_of(const Field& field, double share) {
 }
 
 Panel field_panel(const dem::Record& r, const std::string& table, double strain, const Field& field,
-                  const std::string& label) {
+                  const std::string& label, int per_row) {
   const Layout l = layout_of(r);
   const auto place = r.table("particles").real("position");
   const dem::Table& t = r.table(table);
@@ -180,7 +180,7 @@ Panel field_panel(const dem::Record& r, const std::string& table, double strain,
   p.scene.height = strip ? static_cast<int>(std::lround(1400 * (top - bottom + 0.02))) : 900;
   p.scene.axes = true;
   p.scale_bar = false;
-  p.label = field.words + " at " + at_strain(r, strain);
+  p.label = "at " + at_strain(r, strain);  // of what, its caption says
   p.scene.bar = render::ColourBar{
       .title = field.words + " (10⁻³ k)", .low = 1e3 * field.low, .high = 1e3 * field.high, .colours = {}};
   for (int k = 0; k < 64; ++k) p.scene.bar->colours.push_back(colour_of(field, (k + 0.5) / 64));
@@ -192,7 +192,7 @@ Panel field_panel(const dem::Record& r, const std::string& table, double strain,
                                  label.empty() ? "" : ", " + label, field.has_sign ? ", tension positive" : ""),
           .alt = fmt::format("Values go from {} to {} in units of k.", number(*range.min, 2), number(*range.max, 2)),
           .content = p,
-          .per_row = strip ? 1 : 2,
+          .per_row = per_row,
           .whole_width = strip};
 }
 
@@ -227,11 +227,11 @@ std::string fall_said(const dem::Record& r, const StudyResult& study) {
   const double peak = r.value(quantity::peak_differential_stress), share = left / peak;
   std::string said =
       fmt::format("The differential stress of the walls peaks at {} and has fallen to {} of its peak by the end",
-                  at_strain(r, r.value(quantity::strain_at_peak)), percent(share, 0));
+                  at_strain(r, r.value(quantity::strain_at_peak)), percent(share, 1));
   const double least = study.scenario->real("loading.stop_share"), steps = study.scenario->real("loading.steps"),
                made = r.value(quantity::load_steps);
   if (share < least && made < steps)
-    said += fmt::format(": below {} of it the specimen has failed and the run ends, after {} of {} load steps",
+    said += fmt::format(": the specimen counts as failed below {}, and the run ended after {} of {} load steps",
                         percent(least, 0), count(made), count(steps));
   return said;
 }
@@ -249,8 +249,10 @@ FigureContent stress_strain(const StudyResult& study) {
                           : "";
   const Reach reach = reach_of(study);
   std::vector<std::string> first, worst, falls, unbroken, rising, lasting, failed;
-  TextTable table{{"Run", "First break (%)", "Most breaks in one load step (% of all)",
-                   "Largest fall of the wall tension in one load step (% of its largest value)"},
+  const bool growth = main->text("test") == "growth";
+  TextTable table{{"Run", growth ? "Growth at the first break (%)" : "Strain at the first break (%)",
+                   "Most breaks in a step (%\u00a0of\u00a0all)",
+                   "Largest fall in a step (%\u00a0of\u00a0the\u00a0largest\u00a0tension)"},
                   {}};
   for (const dem::Record* r : records_of(study)) {
     const std::string label = label_of(*r, study);
@@ -297,25 +299,25 @@ FigureContent stress_strain(const StudyResult& study) {
   constexpr std::size_t few = 2;
   bool in_table = false;
   if (table.rows.size() > few) {
-    content.panels.push_back({.id = "runs",
-                              .caption = "First breaks, and the worst of any load step.",
-                              .alt = "",
-                              .content = table,
-                              .per_row = 1});
+    content.panels.push_back(
+        {.id = "runs",
+         .caption = "First breaks, and the worst of any load step; the largest fall is one of the wall tension.",
+         .alt = "",
+         .content = table,
+         .per_row = 1});
     first.clear(), falls.clear();
     in_table = true;
   }
   std::vector<std::string> said;
-  if (in_table) said.emplace_back("The table has the first break and the worst load step of each run.");
+  if (in_table) said.emplace_back("The table gives the first break and the worst load step of each run.");
   if (!first.empty()) {
-    const bool growth = main->text("test") == "growth";
     said.push_back(fmt::format("The first spring breaks at a {} of {}.", growth ? "growth" : "strain", listed(first)));
     said.push_back(listed(worst) + " of all breaks fall in one load step.");
   }
   if (!falls.empty())
     said.push_back("The largest fall of the wall tension in one load step is " + listed(falls) +
                    " of its largest value.");
-  if (main->text("test") == "growth") {
+  if (growth) {
     const dem::Table& h = main->table("history");
     said.push_back("At the end the mean wall stress is " +
                    number(1e3 * 0.5 * (h.real("stress_xx").back() + h.real("stress_yy").back()), 3) + " × 10⁻³ k.");
@@ -406,13 +408,17 @@ FigureContent stress_fields(const StudyResult& study) {
   content.finding =
       "The stress of a particle is the sum over its springs of force times length, over the area of its lattice cell. "
       "Mean stress is half the sum of the two principal stresses in the plane, differential stress their difference: "
-      "of particles here, of the walls in the curves and tables.";
+      "of particles here, of the walls in the curves and tables. Particles at the walls, which have only part of their "
+      "springs, show too low a stress.";
   const dem::Record* r = main_record(study);
   if (!r) return content;
   const auto snapshots = snapshots_of(*r);
   if (snapshots.empty()) return content;
+  // Beside each other as many as fill a row at the height that pictures have; strips of a layer lie below each other.
   std::vector<std::size_t> shown{0};
+  if (snapshots.size() > 2 && !layered(*r)) shown.push_back(snapshots.size() / 2);
   if (snapshots.size() > 1) shown.push_back(snapshots.size() - 1);
+  const int per_row = layered(*r) ? 1 : shown.size() == 3 ? 3 : 2;
   const std::string label = label_of(*r, study);
   std::vector<std::string> tables;
   for (const std::size_t k : shown) tables.push_back(snapshots[k].first);
@@ -421,7 +427,7 @@ FigureContent stress_fields(const StudyResult& study) {
     const Field field = field_of(*r, tables, wanted);
     for (const std::size_t k : shown)
       content.panels.push_back(
-          field_panel(*r, snapshots[k].first, snapshots[k].second, field, label == "this run" ? "" : label));
+          field_panel(*r, snapshots[k].first, snapshots[k].second, field, label == "this run" ? "" : label, per_row));
   }
   return content;
 }
@@ -493,8 +499,8 @@ FigureContent solvers(const StudyResult& study) {
       "energy: {} of its work is unaccounted for.",
       ours->number("spread"),
       same == 0   ? "The order of the breaks differs from the first on"
-      : same == 1 ? "Only the first break is the same in both"
-                  : fmt::format("The first {} breaks are the same in both", count(static_cast<double>(same))),
+      : same == 1 ? "The order of the breaks differs from the second on"
+                  : fmt::format("The first {} breaks come in the same order in both", count(static_cast<double>(same))),
       percent(both, 0), percent(theirs->value(quantity::energy_residual), 2));
   return content;
 }

@@ -80,27 +80,6 @@ void mark_initiation(render::Chart& chart, const std::vector<SeriesCase>& cases,
   if (!marks.x.empty()) chart.series.push_back(marks);
 }
 
-// Where cracks, fragments, events and energies are given: the tests go on from there for their residual strengths alone.
-bool mark_end_of_loading(render::Chart& chart, const std::vector<SeriesCase>& cases) {
-  render::Series marks{.label = "end of loading",
-                       .x = {},
-                       .y = {},
-                       .colour = {0, 0, 0},
-                       .line = render::Line::none,
-                       .marker = render::Marker::cross,
-                       .y_error = {}};
-  if (std::ranges::none_of(cases, [](const SeriesCase& item) { return analysis::is_followed(*item.record); }))
-    return false;
-  for (const SeriesCase& item : cases) {
-    const dem::Table& history = item.record->table("history");
-    const std::size_t end = analysis::end_of_loading(*item.record);
-    marks.x.push_back(100 * history.real("axial_strain")[end]);
-    marks.y.push_back(1e-6 * history.real("axial_stress")[end]);
-  }
-  chart.series.push_back(std::move(marks));
-  return true;
-}
-
 // "the end of loading, where the stress has fallen to 80 % of its peak or the strain of the ends has come to 1.5 times that at the peak"
 std::string end_of_loading_words(const dem::Scenario& scenario) {
   const double limit = scenario.real("compression.strain_limit");
@@ -306,7 +285,8 @@ FigureContent confinement_curves(const StudyResult& study) {
   render::Chart whole = against_strain(cases, {"axial_stress", "Axial stress σ₁ (MPa)", 1e-6}, 1e300);
   whole.left.low = 0;
   leave_room(whole);
-  const bool followed = mark_end_of_loading(whole, cases) && study.scenario;
+  const bool followed =
+      mark_end_of_loading(whole, cases, {"axial_strain", "axial_stress", 100, 1e-6}) && study.scenario;
   content.panels.push_back(
       {.id = "stress",
        .caption = followed
@@ -381,9 +361,9 @@ FigureContent confinement_envelopes(const StudyResult& study) {
   content.panels.push_back(
       {.id = "",
        .caption =
-           "Strengths against confining pressure with fitted envelopes; the tensile strength is drawn at −σ₃. Of "
-           "the four readings of crack initiation, those by the cracks and by the crack volumetric strain are not "
-           "drawn but in the table.",
+           "Strengths against confining pressure with fitted envelopes; the tensile strength is the point at σ₃ = −TS. "
+           "Of the four readings of crack initiation, those by the number of cracks and by the crack volumetric strain "
+           "are given in the table only.",
        .alt = "Peak stresses from " + number(std::ranges::min(found.peak.sigma_1), 3) + " to " +
               number(std::ranges::max(found.peak.sigma_1), 3) + " MPa. Fits: " + fits + ".",
        .content = envelope_chart(study, found, tension)});

@@ -254,7 +254,8 @@ FigureContent crack_counts(const StudyResult& study) {
       "The number of cracks rises with the aspect ratio in all classes, above all that of tension cracks. Intra-grain "
       "shear cracks change only slightly, inter-grain shear cracks more.";
   content.rows = {"trend_cracks_inter_tension", "trend_cracks_inter_shear", "trend_cracks_intra_tension",
-                  "trend_cracks_intra_shear", "tension_cracks_rise_most"};
+                  "trend_cracks_intra_shear",   "tension_cracks_rise_most", "intra_shear_steady",
+                  "inter_shear_sensitive"};
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
@@ -316,7 +317,8 @@ FigureContent confinement_crack_maps(const StudyResult& study) {
   content.statement =
       "With confining pressure the number of cracks rises, above all that of intra-grain shear cracks; the failure "
       "mode turns from axial splitting to predominantly shear.";
-  content.rows = {"trend_cracks_with_pressure", "trend_intra_shear_with_pressure", "trend_crack_angle_with_pressure"};
+  content.rows = {"trend_cracks_with_pressure", "trend_intra_shear_with_pressure", "intra_shear_rises_most",
+                  "trend_crack_angle_with_pressure"};
   return content;
 }
 

@@ -106,23 +106,26 @@ FigureContent crack_directions(const StudyResult& study) {
     std::erase_if(classes, [](const Found& one) { return one.poles.weight.empty(); });
   }
   const double largest = std::max(largest_of(found), largest_of(classes));  // one scale of greys for all nets
+  const std::string shared = found.size() + classes.size() > 1 ? " The nets of this figure share one scale." : "";
   content.panels.push_back(
       {.id = "nets",
        .caption = "Poles of all cracks on the lower hemisphere, equal areas, weighted by crack area (one pole per "
                   "contact and mode): density by the kernel of Kamb and Vollmer; the load is along z, "
                   "the middle of the net. Below each net: dip and dip direction of the plane of the maximum, "
-                  "counter-clockwise from x. The nets of this figure share one scale.",
+                  "counter-clockwise from x." +
+                  std::string(found.size() > 1 ? shared : ""),
        .alt = all_words(found) + ".",
        .content = nets_of(found, largest),
-       .per_row = 1,
-       .whole_width = true});
+       .per_row = found.size() > 1 ? 1 : 2,
+       .whole_width = found.size() > 1});
   if (!classes.empty()) {
-    content.panels.push_back({.id = "classes",
-                              .caption = "The same by class of crack: " + pressed.front().label + ".",
-                              .alt = all_words(classes) + ".",
-                              .content = nets_of(classes, largest),
-                              .per_row = 1,
-                              .whole_width = true});
+    content.panels.push_back(
+        {.id = "classes",
+         .caption = "The same by class of crack: " + pressed.front().label + "." + (found.size() > 1 ? "" : shared),
+         .alt = all_words(classes) + ".",
+         .content = nets_of(classes, largest),
+         .per_row = classes.size() > 1 ? 1 : 2,
+         .whole_width = classes.size() > 1});
   }
   std::vector<Rose> roses;
   for (const Found& one : found) {
@@ -135,11 +138,11 @@ FigureContent crack_directions(const StudyResult& study) {
                                          "the area of a sector is its share.",
                               .alt = "Roses of the strike of cracks, from x towards y.",
                               .content = roses_drawing(roses),
-                              .per_row = 1,
-                              .whole_width = true});
+                              .per_row = roses.size() > 1 ? 1 : 2,
+                              .whole_width = roses.size() > 1});
   }
-  TextTable table{{"Cracks", "Poles", "Area (mm²)", "Largest density (× uniform)", "Above uniform (std. deviations)",
-                   "Plane there: dip (°)", "Dip direction (° from x)", "To the loading axis (°)"},
+  TextTable table{{"Cracks", "Poles", "Area (mm²)", "Largest density (× uniform)", "Above uniform (std. deviations)",
+                   "Plane there: dip (°)", "Dip direction (° from x)", "To the loading axis (°)"},
                   {}};
   for (const Found& one : found) table.rows.push_back(row_of(one));
   for (Found& one : classes) {

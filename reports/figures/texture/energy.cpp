@@ -44,9 +44,14 @@ void add_dissipated(FigureContent& content, const std::vector<SeriesCase>& cases
   std::vector<std::string> ends;
   const std::size_t end = analysis::end_of_loading(record);
   for (std::size_t k = 0; k < dissipated.size(); ++k) {
+    const auto energies = history->real(dissipated[k].column);
+    if (std::ranges::all_of(energies, [](double value) { return value == 0; })) {
+      ends.push_back(fmt::format("{} 0", dissipated[k].label));
+      continue;  // no key for what is not there
+    }
     render::Series series;
     for (const double strain : history->real("platen_strain")) series.x.push_back(100 * strain);
-    for (const double energy : history->real(dissipated[k].column)) series.y.push_back(1e-3 * energy / volume);
+    for (const double energy : energies) series.y.push_back(1e-3 * energy / volume);
     series.label = dissipated[k].label;
     series.colour = colours_of(energy_of(dissipated[k].column)).line;
     series.line = render::line_style(k);
@@ -73,7 +78,7 @@ void add_dissipated(FigureContent& content, const std::vector<SeriesCase>& cases
   chart.x.title = "Strain of the ends (%)";
   chart.left.title = "Dissipated (kJ/m³)";
   chart.x.low = chart.left.low = 0;
-  chart.legend = render::Chart::Legend::top_left;
+  chart.legend = render::Chart::Legend::below;  // marks stand across the whole chart
   content.panels.push_back(
       {.id = "dissipated",
        .caption = capital(item.label) +

@@ -27,16 +27,18 @@ FigureContent fragments(const StudyResult& study) {
   if (cases.empty()) return content;
   constexpr double apart = 0.3;
   const int per_row = cases.size() <= 3 ? 3 : 4;
-  for (const Broken& broken : cases) {
-    content.panels.push_back(
-        {.id = "apart_" + broken.id,
-         .caption = fmt::format("Parts that hold together at the end of loading, each moved outwards by {:g} of its "
-                                "distance from the middle. Percentages are of the volume; the others are counts.",
-                                apart),
-         .alt = fragments_words(broken) + ".",
-         .content = fragments_picture(broken, apart, frame_of(size_of(*broken.record)), 480),
-         .per_row = per_row});
-  }
+  std::vector<Picture> pictures;
+  for (const Broken& broken : cases)
+    pictures.push_back(fragments_picture(broken, apart, frame_of(size_of(*broken.record)), 480));
+  const std::string caption = fmt::format(
+      "Parts that hold together at the end of loading, each moved outwards by {:g} of its distance from the middle. {}",
+      apart, key_values_words(pictures));
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    content.panels.push_back({.id = "apart_" + cases[i].id,
+                              .caption = caption,
+                              .alt = fragments_words(cases[i]) + ".",
+                              .content = std::move(pictures[i]),
+                              .per_row = per_row});
   std::vector<std::string> said, laws;
   for (const Broken& broken : cases) {
     said.push_back(fragments_words(broken));

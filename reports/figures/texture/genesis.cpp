@@ -147,7 +147,7 @@ FigureContent genesis_steps(const StudyResult& study) {
   FigureContent content;
   content.statement =
       "Grain seeds are spread at random, a specimen of small particles is made, ellipsoids mask the particles of each "
-      "grain, and grains grow along contacts until every particle belongs to one. The specimen has 36 528 particles.";
+      "grain, and grains grow along contacts until every particle belongs to one. The specimen has 36 528 particles.";
   content.rows = {"texture_particles"};
   if (auto missing = missing_cases(study, test_genesis)) content.panels.push_back(*missing);
   const dem::Record* record = first_specimen(study);

@@ -215,7 +215,8 @@ FigureContent confinement_mohr(const StudyResult& study) {
        .content = circles_chart(peaks, found, coulomb, tension),
        .per_row = 1});
   content.panels.push_back({.id = "invariants",
-                            .caption = "The same strengths by mean stress and deviator, one point for each test.",
+                            .caption = "The same strengths by mean stress and deviator: peak and crack damage of each "
+                                       "compression test, and direct tension.",
                             .alt = "Peaks: " + joined(said, "; ") + ".",
                             .content = invariants_chart(found, coulomb, tension, peaks.back().sigma_3),
                             .per_row = 1});

@@ -38,25 +38,29 @@ std::string path(const std::string& d, std::string_view fill, std::string_view s
                      fill, stroke, width);
 }
 
-std::string page(double height, const std::string& body) {
+std::string page(int width, double height, const std::string& body) {
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1:.0f}\" width=\"{0}\" "
       "height=\"{1:.0f}\" font-family=\"DejaVu Sans\">{2}</svg>",
-      render::page_width, height, body);
+      width, height, body);
 }
 
-/// Places for drawings in rows: as many beside each other as fill rows evenly.
+/// Places for drawings in rows: as many beside each other as fill rows evenly. One alone is as wide as a column.
 struct Rows {
-  explicit Rows(std::size_t count) : all(count), columns(count == 4 || count > 6 ? 4 : 3) {
+  explicit Rows(std::size_t count)
+      : all(count),
+        columns(count == 4 || count > 6 ? 4 : 3),
+        width(count == 1 ? render::column_width : render::page_width) {
     cell = static_cast<double>(render::page_width) / static_cast<double>(columns);
     radius = columns == 4 ? 78 : 96;
   }
   std::size_t all, columns;
+  int width;                               // px
   double cell = 0, radius = 0, words = 0;  // px; `words`: lines below each
   [[nodiscard]] double pitch() const { return 2 * radius + 62 + line_height * words; }
   [[nodiscard]] Place centre(std::size_t k) const {
     const std::size_t row = k / columns, here = std::min(columns, all - row * columns);
-    const double left = 0.5 * (render::page_width - cell * static_cast<double>(here));
+    const double left = 0.5 * (width - cell * static_cast<double>(here));
     return {left + cell * (static_cast<double>(k % columns) + 0.5), 42 + radius + pitch() * static_cast<double>(row)};
   }
   [[nodiscard]] double height() const { return pitch() * static_cast<double>((all + columns - 1) / columns); }
@@ -235,33 +239,53 @@ std::string fill_of(std::size_t level, std::size_t levels) {
   return hex(render::ordered(level + 1, std::max<std::size_t>(levels, 3) + 3));
 }
 
-std::string key_of(const std::vector<double>& levels, double y, bool dots) {
-  std::string body;
-  double x = 12;
-  body += text(x, y + 11, "density, in multiples of uniform:", "start");
-  x += 232;
+// A key below drawings: entries beside each other as far as there is room.
+class Key {
+ public:
+  Key(int width, double y) : width_(width), y_(y) {}
+  /// `draw` is given the place of an entry of so many px, and returns it.
+  template <class Draw>
+  void add(double wide, const Draw& draw) {
+    if (x_ > margin && x_ + wide > width_) x_ = margin, y_ += line;
+    body_ += draw(x_, y_);
+    x_ += wide;
+  }
+  [[nodiscard]] const std::string& body() const { return body_; }
+  [[nodiscard]] double bottom() const { return y_ + line; }
+
+ private:
+  static constexpr double margin = 12, line = 22;
+  double width_, x_ = margin, y_;
+  std::string body_;
+};
+
+Key key_of(const std::vector<double>& levels, int width, double y, bool dots) {
+  Key key(width, y);
+  key.add(232, [](double x, double at) { return text(x, at + 11, "density, in multiples of uniform:", "start"); });
   for (std::size_t k = 0; k < levels.size(); ++k) {
-    body += fmt::format(
-        "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"16\" height=\"14\" fill=\"{}\" stroke=\"{}\" "
-        "stroke-width=\"0.6\"/>",
-        x, y, fill_of(k, levels.size()), ink);
-    body += text(x + 21, y + 11, fmt::format("≥ {:g}", levels[k]), "start");
-    x += 72;
+    key.add(72, [&](double x, double at) {
+      return fmt::format(
+                 "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"16\" height=\"14\" fill=\"{}\" stroke=\"{}\" "
+                 "stroke-width=\"0.6\"/>",
+                 x, at, fill_of(k, levels.size()), ink) +
+             text(x + 21, at + 11, fmt::format("≥ {:g}", levels[k]), "start");
+    });
   }
-  x = 12;
-  y += 22;
-  body += path(fmt::format("M{:.1f} {:.1f}h26", x, y + 7), "none", ink, 1);
-  body += text(x + 33, y + 11, "three standard deviations above uniform", "start");
-  x += 330;
-  body += path(fmt::format("M{:.1f} {:.1f}h26", x, y + 7), "none", mark, 2.2);
-  body += circle({x + 13, y + 7}, 4, "#ffffff", mark, 2);
-  body += text(x + 33, y + 11, "largest density: its pole, its plane", "start");
+  key.add(330, [](double x, double at) {
+    return path(fmt::format("M{:.1f} {:.1f}h26", x, at + 7), "none", ink, 1) +
+           text(x + 33, at + 11, "three standard deviations above uniform", "start");
+  });
+  key.add(290, [](double x, double at) {
+    return path(fmt::format("M{:.1f} {:.1f}h26", x, at + 7), "none", mark, 2.2) +
+           circle({x + 13, at + 7}, 4, "#ffffff", mark, 2) +
+           text(x + 33, at + 11, "largest density: its pole, its plane", "start");
+  });
   if (dots) {
-    x += 290;
-    body += circle({x + 6, y + 7}, 2.6, ink, "none", 0);
-    body += text(x + 15, y + 11, "poles, where few", "start");
+    key.add(120, [](double x, double at) {
+      return circle({x + 6, at + 7}, 2.6, ink, "none", 0) + text(x + 15, at + 11, "poles, where few", "start");
+    });
   }
-  return body;
+  return key;
 }
 
 }  // namespace
@@ -299,8 +323,8 @@ std::string nets_drawing(const std::vector<Net>& nets, double largest) {
     }
     body += around(rows, c, net);
   }
-  body += key_of(levels, rows.height() + 4, dots);
-  return page(rows.height() + 46, body);
+  const Key key = key_of(levels, rows.width, rows.height() + 4, dots);
+  return page(rows.width, key.bottom(), body + key.body());
 }
 
 std::string roses_drawing(const std::vector<Rose>& roses) {
@@ -330,13 +354,18 @@ std::string roses_drawing(const std::vector<Rose>& roses) {
         c[0], c[1], even, mark);
     body += around(rows, c, rose);
   }
-  const double y = rows.height() + 4;
-  body += fmt::format(
-              "<path d=\"M12 {:.1f}h26\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.4\" stroke-dasharray=\"5 3\"/>",
-              y + 7, mark) +
-          text(45, y + 11, "uniform", "start") +
-          text(190, y + 11, fmt::format("rim: {} of the trace length in 10° of strike", percent(most, 1)), "start");
-  return page(rows.height() + 24, body);
+  Key key(rows.width, rows.height() + 4);
+  key.add(150, [](double x, double at) {
+    return fmt::format(
+               "<path d=\"M{:.1f} {:.1f}h26\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.4\" stroke-dasharray=\"5 "
+               "3\"/>",
+               x, at + 7, mark) +
+           text(x + 33, at + 11, "uniform", "start");
+  });
+  key.add(300, [&](double x, double at) {
+    return text(x, at + 11, fmt::format("rim: {} of the trace length in 10° of strike", percent(most, 1)), "start");
+  });
+  return page(rows.width, key.bottom(), body + key.body());
 }
 
 }  // namespace reports::texture

@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 
+#include "engine/analysis/ending.h"
 #include "reports/text.h"
 
 namespace reports::texture {
@@ -462,6 +463,26 @@ render::Chart load_curves(const std::vector<SeriesCase>& cases, const CurveOf& o
   leave_room(chart);
   chart.legend = cases.size() > 1 ? render::Chart::Legend::below : render::Chart::Legend::none;
   return chart;
+}
+
+bool mark_end_of_loading(render::Chart& chart, const std::vector<SeriesCase>& cases, const CurveOf& of) {
+  if (std::ranges::none_of(cases, [](const SeriesCase& item) { return analysis::is_followed(*item.record); }))
+    return false;
+  render::Series marks{.label = "end of loading",
+                       .x = {},
+                       .y = {},
+                       .colour = {0, 0, 0},
+                       .line = render::Line::none,
+                       .marker = render::Marker::cross,
+                       .y_error = {}};
+  for (const SeriesCase& item : cases) {
+    const dem::Table& history = item.record->table("history");
+    const std::size_t end = analysis::end_of_loading(*item.record);
+    marks.x.push_back(of.x_factor * history.real(of.x)[end]);
+    marks.y.push_back(of.y_factor * history.real(of.y)[end]);
+  }
+  chart.series.push_back(std::move(marks));
+  return true;
 }
 
 std::string reading_of(const dem::Record& record, const StudyResult& study) {

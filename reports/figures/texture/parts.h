@@ -106,5 +106,8 @@ std::string first_seed(const std::vector<SeriesCase>& cases);
 /// A curve of each case from zero, its legend below.
 render::Chart load_curves(const std::vector<SeriesCase>& cases, const CurveOf& of, const std::string& x_title,
                           const std::string& y_title);
+/// Where cracks, fragments, events and energies are given, as crosses on the curves of a chart: the tests go on from there for
+/// their strengths after the peak alone. False, and no mark, where none goes on.
+bool mark_end_of_loading(render::Chart& chart, const std::vector<SeriesCase>& cases, const CurveOf& of);
 
 }  // namespace reports::texture

@@ -515,7 +515,7 @@ FigureContent progressive_failure(const StudyResult& study) {
   content.panels.push_back({.id = "stiffness",
                             .caption = "Axial stiffness (Eq. 9).",
                             .alt = "Axial stiffness against axial strain, from " +
-                                   number(base.value_or_nan(quantity::young_modulus) * 1e-9, 3) + " GPa on.",
+                                   number(base.value_or_nan(quantity::young_modulus), 3) + " GPa on.",
                             .content = stiffness_chart(study, base)});
   content.panels.push_back({.id = "cracks",
                             .caption = "Cracks so far, by class." + classes_without_cracks(base),
@@ -555,7 +555,9 @@ FigureContent stress_strain(const StudyResult& study) {
                   "ucs_ar_3",
                   "tensile_strength_ar_1",
                   "tensile_strength_ar_2",
-                  "tensile_strength_ar_3"};
+                  "tensile_strength_ar_3",
+                  "elastic_alike",
+                  "lateral_parts"};
   const auto compression = swept(study, test_compression);
   const auto tension = swept(study, test_tension);
   add_missing(content, study, {test_compression, test_tension});

@@ -199,19 +199,25 @@ FigureContent direct_shear_test(const StudyResult& study) {
   const auto cases = blocks(study);
   if (cases.empty()) return content;
   const std::string peaks = by_case(cases, quantity::shear_strength, 3);
-  content.panels.push_back({.id = "stress",
-                            .caption = "Shear stress against shear displacement" + first_seed(cases) + ".",
-                            .alt = "Curves of shear stress; peaks of " + peaks + ".",
-                            .content = load_curves(cases, {"platen_strain", "axial_stress", 100, 1e-6}, displacement,
-                                                   "Shear stress τ (MPa)")});
-  render::Chart rise =
-      load_curves(cases, {"platen_strain", "opening", 100, 1e6}, displacement, "Rise of the upper half (µm)");
+  const CurveOf stress{"platen_strain", "axial_stress", 100, 1e-6}, opening{"platen_strain", "opening", 100, 1e6};
+  render::Chart shear = load_curves(cases, stress, displacement, "Shear stress τ (MPa)");
+  const bool followed = mark_end_of_loading(shear, cases, stress);
+  content.panels.push_back(
+      {.id = "stress",
+       .caption = "Shear stress against shear displacement" + first_seed(cases) + "." +
+                  (followed ? " Crosses: the end of loading; cracks and energies are those of that "
+                              "moment."
+                            : ""),
+       .alt = "Curves of shear stress; peaks of " + peaks + ".",
+       .content = std::move(shear)});
+  render::Chart rise = load_curves(cases, opening, displacement, "Rise of the upper half (µm)");
   rise.left.low.reset();  // it may settle at first
   double lowest = 0, highest = 0;
   for (const render::Series& one : rise.series) {
     for (const double y : one.y) lowest = std::min(lowest, y), highest = std::max(highest, y);
   }
   if (lowest > -0.02 * highest) rise.left.low = 0;
+  mark_end_of_loading(rise, cases, opening);
   content.panels.push_back(
       {.id = "rise",
        .caption = "Rise of the upper half from its position under the normal stress alone" + first_seed(cases) + ".",
@@ -221,7 +227,8 @@ FigureContent direct_shear_test(const StudyResult& study) {
     content.panels.push_back(cracks_at_end(
         study, item,
         "Cracks near the middle section at the end of loading, where they formed in the block, with the two halves of "
-        "the box. Arrows: the normal stress, and how the halves move along x" +
+        "the box, which touches the outermost particles; these reach beyond the nominal faces. Vertical arrows: normal "
+        "stress; horizontal arrows: motion of the two halves along x" +
             first_seed(cases) + ".",
         picture_width,
         [&](render::Scene& scene) { add_box(scene, *item.record, study.scenario->real("direct_shear.gap")); }));
@@ -283,7 +290,7 @@ FigureContent direct_shear_envelope(const StudyResult& study) {
   content.panels.push_back(
       {.id = "strengths",
        .caption = "Strengths and where they were read" + first_seed(cases) +
-                  ". The strength after the peak is the mean over the last fifth of each test, which ends at " +
+                  ". The strength after the peak is the mean over the last fifth of each test, which goes on to " +
                   shortest(study.scenario->real("direct_shear.follow")) + " times the displacement of its peak.",
        .alt = "",
        .content = strengths_table(cases),
