@@ -120,7 +120,8 @@ std::string key_values_words(const std::vector<Picture>& pictures) {
   const bool counts = std::ranges::any_of(pictures, [](const Picture& picture) {
     return std::ranges::any_of(picture.legend, [](const LegendEntry& entry) { return !entry.count.ends_with('%'); });
   });
-  return counts ? "Percentages are of the volume; the others are counts." : "Percentages are of the volume.";
+  return counts ? "In the keys, percentages are of the volume; numbers without % are counts."
+                : "Percentages are of the volume.";
 }
 
 std::optional<analysis::PowerLaw> size_law(const Broken& broken) { return analysis::fit_power_law(numbers_of(broken)); }

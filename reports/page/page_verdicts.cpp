@@ -158,7 +158,8 @@ PageData comparisons_data(const Comparisons& comparisons) {
     item.set("deviation", deviation);
     item.set("tolerance", tolerance);
     // Words where there is neither have the room of all three.
-    item.set("across", deviation == "–" && (reading || tolerance == "–"));
+    const bool number = row.computed && std::holds_alternative<double>(*row.computed);
+    item.set("across", !row.computed || (deviation == "–" && (reading || tolerance == "–") && !number));
     // Another reading has no verdict of its own.
     item.set("verdict", reading ? "" : std::string(verdict_word(row.verdict)));
     item.set("has_verdict", !reading);

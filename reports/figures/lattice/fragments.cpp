@@ -173,7 +173,9 @@ FigureContent fragments(const StudyResult& study) {
     }
     std::vector<std::string> each;
     for (const auto& [share, planes] : shares) each.push_back(share + " with " + listed(planes) + " planes");
-    said.push_back(fmt::format("tension: {} parts and nothing smaller; the largest has {}",
+    std::vector<std::string> all;
+    for (const Broken* broken : clean) all.push_back(planes_of(*broken->record));
+    said.push_back(fmt::format("tension, {} planes: {} parts and nothing smaller; the largest has {}", listed(all),
                                count(static_cast<double>(parts_of(*clean.front()))), listed(each)));
   }
   content.finding = sentence(said);

@@ -111,7 +111,7 @@ FigureContent crack_directions(const StudyResult& study) {
       {.id = "nets",
        .caption = "Poles of all cracks on the lower hemisphere, equal areas, weighted by crack area (one pole per "
                   "contact and mode): density by the kernel of Kamb and Vollmer; the load is along z, "
-                  "the middle of the net. Below each net: dip and dip direction of the plane of the maximum, "
+                  "the middle of the net. Below it: dip and dip direction of the plane of the maximum, "
                   "counter-clockwise from x." +
                   std::string(found.size() > 1 ? shared : ""),
        .alt = all_words(found) + ".",

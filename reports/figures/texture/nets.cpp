@@ -261,9 +261,12 @@ class Key {
 
 Key key_of(const std::vector<double>& levels, int width, double y, bool dots) {
   Key key(width, y);
-  key.add(232, [](double x, double at) { return text(x, at + 11, "density, in multiples of uniform:", "start"); });
+  // Levels that do not fit beside their words stand together below them.
+  const double lead = 232, step = 72, all = lead + step * static_cast<double>(levels.size());
+  key.add(all < width ? lead : width,
+          [](double x, double at) { return text(x, at + 11, "density, in multiples of uniform:", "start"); });
   for (std::size_t k = 0; k < levels.size(); ++k) {
-    key.add(72, [&](double x, double at) {
+    key.add(step, [&](double x, double at) {
       return fmt::format(
                  "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"16\" height=\"14\" fill=\"{}\" stroke=\"{}\" "
                  "stroke-width=\"0.6\"/>",
