@@ -273,7 +273,7 @@ TEST_CASE("figures show what the paper states beside ours, and nothing for anoth
                                               {"friction coefficient", "0.6"},
                                               {"UCS (MPa)", "200–228"},
                                               {"TS (MPa)", "9.3–13.4"},
-                                              {"m", "28–34"}});
+                                              {"Hoek–Brown m", "28–34"}});
 }
 
 TEST_CASE("circles of Mohr are those of the mean peaks, round, and touched by the envelope") {
