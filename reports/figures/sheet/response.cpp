@@ -387,10 +387,13 @@ FigureContent energy(const StudyResult& study) {
     chart.x.high = last_strain;
     chart.left.high = 1.06 * most;
     const double residual = r->value(quantity::energy_residual);
+    constexpr double seen = 5e-3;  // of the work, in a chart
     const std::string label = label_of(*r, study);
     content.panels.push_back(
         {.id = r->case_id,
-         .caption = fmt::format("Energy{}; “released” is what {} took.", label == "this run" ? "" : ", " + label, by),
+         .caption = fmt::format("Energy{}; “released” is the energy that {} released{}.",
+                                label == "this run" ? "" : ", " + label, by,
+                                residual > seen ? ", the white below the work that of neither" : ""),
          .alt = fmt::format("Work, elastic energy and released energy agree to {} of the work.", number(residual, 2)),
          .content = chart,
          .per_row = 2});
