@@ -34,8 +34,7 @@ Clocks system_clocks();
 /// its core keeps all others waiting, and how long is a matter of chance that no short trial tells. Where cores are free,
 /// now and then tenths of a second on half as many, or on twice as many again, in turn with as many as now; the faster
 /// number by the median of up to five turns is kept. It asks more seldom while nothing changes, and where more threads
-/// did not last. A trial costs more than its time on a busy machine: a thread that sleeps and wakes loses its core to
-/// those that never do.
+/// did not last. On a busy machine a second thread costs more than the time of its trial (measured: docs/reliability.md).
 class Pace {
  public:
   explicit Pace(Clocks clocks = system_clocks()) : clocks_(std::move(clocks)) {}

@@ -1,5 +1,6 @@
 #pragma once
-// Directions of cracks as drawings as wide as the page, one alone as a column: equal-area nets with contoured density, and roses of strike.
+// Directions of cracks as drawings as wide as the page, one alone as wide as a column: equal-area nets with contoured
+// density, and roses of strike.
 #include <optional>
 #include <string>
 #include <vector>
