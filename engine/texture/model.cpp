@@ -14,6 +14,7 @@
 #include "engine/texture/keys.h"
 #include "engine/texture/loading/loading.h"
 #include "engine/texture/loading/test.h"
+#include "engine/texture/micro_parameters.h"
 #include "engine/texture/quantities.h"
 #include "engine/texture/results.h"
 
@@ -27,13 +28,14 @@ constexpr std::string_view physics_version = "grain_texture 6";
 struct Variant {
   double aspect_ratio = 1, dip = 0, seed_scale = 1;  ///< -, rad, -
   std::string growth = {}, between = {}, only_mineral = {};
+  std::string raised = {};    ///< name of the parameter that is (sweep.raised); "": none
   double pressure_ratio = 0;  ///< of the packing
   double swept = 0;           ///< what cases of the test differ in beside (TestEntry::sweep), SI; a confining pressure
   std::int64_t seed = 1;
   std::optional<std::size_t> extra = {};  ///< the [[extra]] that asks for it; none: the sweeps do
 
   [[nodiscard]] auto values() const {
-    return std::tie(aspect_ratio, dip, seed_scale, growth, between, only_mineral, pressure_ratio, swept, seed);
+    return std::tie(aspect_ratio, dip, seed_scale, growth, between, only_mineral, raised, pressure_ratio, swept, seed);
   }
 };
 
@@ -49,6 +51,23 @@ std::string source_of(const Scenario& base, const Variant& v, const std::string&
   }
   const std::string sweep = "sweep." + name;
   return base.given(sweep) ? sweep : std::string();
+}
+
+/// The scenario with one parameter raised, of a rock or of one mineral alone.
+Scenario raise(const Scenario& scenario, const std::string& name, const std::string& only_mineral) {
+  const std::string key = scenario.texts("sweep.raised").empty() ? "sensitivity.parameter" : "sweep.raised";
+  const MicroParameter parameter = micro_parameter(scenario, key, name);
+  const bool of_another = parameter.name != parameter.kind && parameter.name != only_mineral + "." + parameter.kind;
+  if (!only_mineral.empty() && (parameter.is_of_boundaries() || of_another)) {
+    throw scenario.error(key, "'" + name + "' does nothing: " + only_mineral + " stands alone",
+                         "leave it out, or the mineral");
+  }
+  const double factor = scenario.real("sensitivity.factor");
+  if (factor > parameter.high) {
+    throw scenario.error("sensitivity.factor", fmt::format("'{}' cannot be {} times as large", name, factor),
+                         fmt::format("give at most {:.3g}", parameter.high));
+  }
+  return multiplied(scenario, parameter, factor, key);
 }
 
 CaseSpec case_of(const Scenario& base, const std::string& test, const Variant& v) {
@@ -67,6 +86,8 @@ CaseSpec case_of(const Scenario& base, const std::string& test, const Variant& v
                           .with("compression.confining_pressure", confined ? v.swept : 0.0, from("confining_pressure"))
                           .with("seed", v.seed);
   if (sweep && !confined) scenario = std::move(scenario).with(sweep->key(), v.swept, from(sweep->name));
+  scenario = std::move(scenario).with("sensitivity.parameter", v.raised);
+  if (!v.raised.empty()) scenario = raise(scenario, v.raised, v.only_mineral);
   if (const auto resolve = test_entry(test).resolve) scenario = resolve(scenario);
   std::string id = test + "_" + (v.only_mineral.empty() ? "ar_" + id_part(v.aspect_ratio) : id_part(v.only_mineral));
   if (!base.reals("sweep.dip").empty() || v.dip != 0) id += "_dip_" + id_part(dip);
@@ -75,6 +96,7 @@ CaseSpec case_of(const Scenario& base, const std::string& test, const Variant& v
   if (v.growth != base.text("texture.growth")) id += "_" + v.growth;
   if (v.between != base.text("interaction.between")) id += "_between_" + v.between;
   if (v.pressure_ratio != base.real("packing.pressure_ratio")) id += "_pressure_ratio_" + id_part(v.pressure_ratio);
+  if (!v.raised.empty()) id += "_" + id_part(v.raised) + "_raised";
   if (v.seed != static_cast<std::int64_t>(base.seed())) id += fmt::format("_seed_{}", v.seed);
   const auto of = [](const Parameter& parameter, ParameterValue value) {
     return std::pair{std::string(parameter.id), std::move(value)};
@@ -86,6 +108,7 @@ CaseSpec case_of(const Scenario& base, const std::string& test, const Variant& v
                            of(parameter::growth, v.growth),
                            of(parameter::between, v.between),
                            of(parameter::pressure_ratio, v.pressure_ratio),
+                           of(parameter::raised, v.raised),
                            of(parameter::mineral, v.only_mineral),
                            of(parameter::confining_pressure, confined ? swept : 0.0),
                            of(parameter::seed, static_cast<double>(v.seed))};
@@ -133,21 +156,27 @@ std::vector<Variant> variants_of(const Scenario& s, const std::optional<Sweep>& 
       add(v, key);
     }
   };
+  std::vector<std::string> raised = s.texts("sweep.raised");
+  refuse_repeated(s, "sweep.raised", raised);
+  raised.insert(raised.begin(), raised.empty() ? s.text("sensitivity.parameter") : "");  // beside the specimen as it is
   std::vector<std::string> minerals = s.texts("sweep.mineral");
   if (minerals.empty()) minerals.push_back(s.text("texture.only_mineral"));
   for (const std::string& mineral : minerals) {
     for (const double ar : swept(s, "sweep.aspect_ratio", "texture.aspect_ratio")) {
       for (const double dip : swept(s, "sweep.dip", "texture.dip")) {
-        for (const double value : sweep ? swept(s, sweep->list(), sweep->key()) : std::vector<double>{0}) {
-          add_repeats({.aspect_ratio = ar,
-                       .dip = dip,
-                       .seed_scale = s.real("texture.seed_scale"),
-                       .growth = s.text("texture.growth"),
-                       .between = s.text("interaction.between"),
-                       .only_mineral = mineral,
-                       .pressure_ratio = s.real("packing.pressure_ratio"),
-                       .swept = value},
-                      s.reals("sweep.dip").empty() ? "sweep.aspect_ratio" : "sweep.dip");
+        for (const std::string& parameter : raised) {
+          for (const double value : sweep ? swept(s, sweep->list(), sweep->key()) : std::vector<double>{0}) {
+            add_repeats({.aspect_ratio = ar,
+                         .dip = dip,
+                         .seed_scale = s.real("texture.seed_scale"),
+                         .growth = s.text("texture.growth"),
+                         .between = s.text("interaction.between"),
+                         .only_mineral = mineral,
+                         .raised = parameter,
+                         .pressure_ratio = s.real("packing.pressure_ratio"),
+                         .swept = value},
+                        s.reals("sweep.dip").empty() ? "sweep.aspect_ratio" : "sweep.dip");
+          }
         }
       }
     }

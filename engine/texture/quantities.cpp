@@ -60,9 +60,9 @@ std::span<const Quantity> quantities() {
 
 std::span<const Parameter> parameters() {
   using namespace parameter;
-  static constexpr std::array declared{aspect_ratio,   dip,     seed_scale,         growth,    between,
-                                       pressure_ratio, mineral, confining_pressure, jaw_ratio, notch,
-                                       normal_stress,  seed};
+  static constexpr std::array declared{aspect_ratio, dip,     seed_scale,         growth,    between, pressure_ratio,
+                                       raised,       mineral, confining_pressure, jaw_ratio, notch,   normal_stress,
+                                       seed};
   return declared;
 }
 

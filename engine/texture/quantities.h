@@ -367,6 +367,8 @@ inline constexpr Parameter pressure_ratio{.id = "pressure_ratio",
                                           .in_ids = "pressure_ratio",
                                           .key = "packing.pressure_ratio",
                                           .behind = "of the modulus"};
+inline constexpr Parameter raised{
+    .id = "raised", .name = "Parameter raised", .key = "sensitivity.parameter", .behind = "raised"};
 inline constexpr Parameter mineral{.id = "mineral", .name = "Mineral", .key = "texture.only_mineral"};
 inline constexpr Parameter confining_pressure{.id = "confining_pressure",
                                               .name = "Confining pressure σ₃",

@@ -17,103 +17,8 @@
 namespace calibrate {
 namespace {
 
-/// Properties of minerals, with the keys that move together.
-struct Property {
-  std::string_view name;
-  std::vector<std::string_view> keys;
-  std::string_view unit;
-  double low, high;  ///< factors
-};
-
-const std::vector<Property>& properties() {
-  static const std::vector<Property> all = {
-      {"modulus", {"modulus", "bond_modulus"}, "GPa", 0.2, 5},
-      {"stiffness_ratio", {"stiffness_ratio", "bond_stiffness_ratio"}, "", 0.3, 5},
-      {"tensile_strength", {"tensile_strength"}, "MPa", 0.2, 5},
-      {"cohesion", {"cohesion"}, "MPa", 0.2, 5},
-      {"friction_angle", {"friction_angle"}, "deg", 0.5, 2},
-      {"friction", {"friction"}, "", 0.3, 3}};
-  return all;
-}
-
-const Property& property(std::string_view name) { return *std::ranges::find(properties(), name, &Property::name); }
-
-constexpr std::array coefficients{"modulus",  "stiffness_ratio", "tensile_strength",
-                                  "cohesion", "friction",        "friction_angle"};
-constexpr double steepest_angle = 1.5;  // rad, some 86 degrees
-
-std::string key_of(std::size_t mineral, std::string_view key) { return fmt::format("mineral[{}].{}", mineral, key); }
-
-/// Of one mineral, or of all of them ("").
-Parameter of_minerals(const dem::Scenario& scenario, std::string_view name, const std::string& mineral) {
-  const Property& one = property(name);
-  Parameter made{.name = (mineral.empty() ? "" : mineral + ".") + std::string(name),
-                 .kind = std::string(name),
-                 .keys = {},
-                 .start = {},
-                 .unit = std::string(one.unit),
-                 .low = one.low,
-                 .high = one.high};
-  for (std::size_t i = 0; i < scenario.count("mineral"); ++i) {
-    if (!mineral.empty() && scenario.text(key_of(i, "name")) != mineral) continue;
-    for (const std::string_view key : one.keys) {
-      made.keys.push_back(key_of(i, key));
-      made.start.push_back(scenario.real(made.keys.back()));
-      if (name == "friction_angle" && made.start.back() > 0)
-        made.high = std::min(made.high, steepest_angle / made.start.back());
-    }
-  }
-  return made;
-}
-
-Parameter of_boundaries(const dem::Scenario& scenario, std::string_view name) {
-  Parameter made{.name = "interaction." + std::string(name),
-                 .kind = "interaction." + std::string(name),
-                 .keys = {},
-                 .start = {},
-                 .unit = "",
-                 .low = 0.2,
-                 .high = 5};
-  made.keys = {made.name};
-  made.start = {scenario.real(made.name)};
-  if (name == "friction_angle") made.high = std::min(made.high, 1.5 / std::max(made.start.front(), 1e-9));
-  return made;
-}
-
-std::vector<std::string> minerals_of(const dem::Scenario& scenario) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < scenario.count("mineral"); ++i) names.push_back(scenario.text(key_of(i, "name")));
-  return names;
-}
-
-/// A parameter by the name that a user gives it.
 Parameter parameter_named(const dem::Scenario& scenario, const std::string& key, const std::string& name) {
-  const std::vector<std::string> minerals = minerals_of(scenario);
-  const std::size_t dot = name.rfind('.');
-  const std::string owner = dot == std::string::npos ? "" : name.substr(0, dot);
-  const std::string leaf = dot == std::string::npos ? name : name.substr(dot + 1);
-  std::vector<std::string> known;
-  for (const Property& one : properties()) known.emplace_back(one.name);
-  if (owner == "interaction") {
-    const std::vector<std::string> there(coefficients.begin(), coefficients.end());
-    if (std::ranges::find(there, leaf) == there.end()) {
-      throw scenario.error(key, "there is no coefficient '" + name + "'",
-                           dem::advice(leaf, there, "below interaction are"));
-    }
-    if (minerals.size() < 2 && scenario.text("interaction.between") == "minerals") {
-      throw scenario.error(key, "'" + name + "' does nothing: the rock has one mineral", "leave it out");
-    }
-    return of_boundaries(scenario, leaf);
-  }
-  if (!owner.empty() && std::ranges::find(minerals, owner) == minerals.end()) {
-    throw scenario.error(key, "there is no mineral '" + owner + "'", dem::advice(owner, minerals, "the minerals are"));
-  }
-  if (std::ranges::find(known, leaf) == known.end()) {
-    throw scenario.error(
-        key, "there is no parameter '" + name + "'",
-        dem::advice(leaf, known, "of minerals there are") + "; of boundaries, interaction.cohesion and so on");
-  }
-  return of_minerals(scenario, leaf, owner);
+  return {dem::texture::micro_parameter(scenario, key, name)};
 }
 
 /// "cohesion 0.5-2"
@@ -345,7 +250,7 @@ Plan make_plan(const dem::Scenario& scenario, std::span<const dem::Measurable> m
   plan.budget = static_cast<int>(scenario.integer("calibrate.budget"));
   plan.seeds = static_cast<int>(scenario.integer("calibrate.seeds"));
   const std::vector<Range> ranges = ranges_of(scenario);
-  const std::vector<std::string> minerals = minerals_of(scenario);
+  const std::vector<std::string> minerals = dem::texture::mineral_names(scenario);
   std::vector<std::string> owners;  // subjects, minerals first
   for (const std::string& mineral : minerals) {
     if (std::ranges::find(numbers, mineral, &reports::LaboratoryNumber::mineral) != numbers.end())
@@ -361,7 +266,7 @@ Plan make_plan(const dem::Scenario& scenario, std::span<const dem::Measurable> m
     subject.mineral = owner;
     std::string table = "measured.";
     for (std::size_t i = 0; i < minerals.size(); ++i) {
-      if (minerals[i] == owner) table = key_of(i, "measured.");
+      if (minerals[i] == owner) table = fmt::format("mineral[{}].measured.", i);
     }
     for (const reports::LaboratoryNumber& number : numbers) {
       if (number.mineral != owner) continue;
@@ -405,25 +310,32 @@ Plan make_plan(const dem::Scenario& scenario, std::span<const dem::Measurable> m
     }
     if (!chosen) {
       const bool boundaries = owner.empty() && minerals.size() > 1;
-      const auto add = [&](Parameter parameter) {
+      const auto add = [&](const std::string& name) {
+        Parameter parameter = parameter_named(scenario, "calibrate.parameters", name);
         const bool there = std::ranges::all_of(parameter.start, [](double v) { return v > 0; });
         if (there) subject.candidates.push_back(std::move(parameter));
       };
+      const auto of_boundaries = [&](std::initializer_list<const char*> names) {
+        for (const char* name : names) add(std::string("interaction.") + name);
+      };
+      const auto of_minerals = [&](const std::string& name) { add((owner.empty() ? "" : owner + ".") + name); };
       if (owner.empty() && minerals_alone) {
-        for (const char* name : {"tensile_strength", "modulus", "stiffness_ratio", "cohesion", "friction"})
-          add(of_boundaries(scenario, name));
+        of_boundaries({"tensile_strength", "modulus", "stiffness_ratio", "cohesion", "friction"});
       } else {
-        add(of_minerals(scenario, "modulus", owner));
-        add(of_minerals(scenario, "stiffness_ratio", owner));
-        add(boundaries ? of_boundaries(scenario, "tensile_strength")
-                       : of_minerals(scenario, "tensile_strength", owner));
-        add(of_minerals(scenario, "cohesion", owner));
-        add(of_minerals(scenario, "friction_angle", owner));
-        if (boundaries) add(of_minerals(scenario, "tensile_strength", owner));
+        of_minerals("modulus");
+        of_minerals("stiffness_ratio");
         if (boundaries) {
-          for (const char* name : {"modulus", "stiffness_ratio", "cohesion"}) add(of_boundaries(scenario, name));
+          of_boundaries({"tensile_strength"});
+        } else {
+          of_minerals("tensile_strength");
         }
-        add(of_minerals(scenario, "friction", owner));
+        of_minerals("cohesion");
+        of_minerals("friction_angle");
+        if (boundaries) {
+          of_minerals("tensile_strength");
+          of_boundaries({"modulus", "stiffness_ratio", "cohesion"});
+        }
+        of_minerals("friction");
       }
     }
     // Those whose own value is measured come first: the stiffness ratio must not follow UCS where nobody measured Poisson's

@@ -7,19 +7,14 @@
 
 #include "engine/calibration/identify.h"
 #include "engine/scenario/scenario.h"
+#include "engine/texture/micro_parameters.h"
 #include "reports/published/laboratory.h"
 
 namespace calibrate {
 
-/// A parameter that may move: one factor on the values that some keys have at the start.
-struct Parameter {
-  std::string name;               ///< "cohesion", "quartz.cohesion", "interaction.cohesion"
-  std::string kind;               ///< the same without the mineral: what sensitivities are known by
-  std::vector<std::string> keys;  ///< of the scenario
-  std::vector<double> start;      ///< value of each, SI
-  std::string unit;
-  double low = 0, high = 0;  ///< factors
-  bool is_chosen = false;    ///< by the user
+/// A parameter that may move.
+struct Parameter : dem::texture::MicroParameter {
+  bool is_chosen = false;  ///< by the user
 };
 
 /// A measured value that is aimed at, in the coordinate of the search: the logarithm, but of Poisson's ratio.

@@ -40,7 +40,8 @@ dem::CaseSpec Trials::case_of(const Wish& wish) const {
           .with("sweep.dip", std::vector<double>{s.real("texture.dip")})
           .with("sweep.confining_pressure", std::vector<double>{1e6 * wish.test.pressure})
           .with("sweep.jaw_ratio", std::vector<double>{s.real("brazilian.jaw_ratio")})
-          .with("sweep.mineral", std::vector<std::string>{wish.mineral});
+          .with("sweep.mineral", std::vector<std::string>{wish.mineral})
+          .with("sweep.raised", std::vector<std::string>{});
   dem::CaseSpec spec = study_.model->cases(s).front();
   spec.id = "trial_" + dem::sha256(spec.content).substr(0, 20);
   return spec;

@@ -67,6 +67,8 @@ std::span<const Figure> figures() {
        texture::input_parameters},
       {"texture_by_seed", "Texture by aspect ratio and seed", "Zhao et al. 2021, section 5 and Eq. 14", "grain_texture",
        texture::texture_by_seed},
+      {"sensitivities", "What each parameter does", "Zhao et al. 2021, section 3.2", "grain_texture",
+       texture::sensitivities},
       {"readings", "How the paper’s open readings change the results", "Zhao et al. 2021, sections 2.3, 2.4 and 3.3",
        "grain_texture", texture::open_readings},
       {"brazilian_test", "The Brazilian test", "", "grain_texture", texture::brazilian_test},

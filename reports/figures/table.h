@@ -41,6 +41,7 @@ FigureContent test_setups(const StudyResult& study);
 FigureContent input_parameters(const StudyResult& study);
 FigureContent texture_by_seed(const StudyResult& study);
 FigureContent open_readings(const StudyResult& study);
+FigureContent sensitivities(const StudyResult& study);
 FigureContent brazilian_test(const StudyResult& study);
 FigureContent brazilian_strengths(const StudyResult& study);
 FigureContent brazilian_cracks(const StudyResult& study);

@@ -28,6 +28,16 @@ const Json* parts_of(const Json& term) {
   return nullptr;
 }
 
+// The places of a term {"effect": [...], "on": TERM}: with each parameter raised alone.
+std::vector<dem::Parameters> raised_places(const Json& term, const dem::Parameters& at) {
+  std::vector<dem::Parameters> places;
+  for (const std::string name : term.at("effect")) {
+    places.push_back(at);
+    places.back().emplace_back("raised", name);
+  }
+  return places;
+}
+
 // A term about one case, whose members are parameters.
 bool of_a_case(const Json& term) { return !term.contains("constant") && !term.contains("fit"); }
 
@@ -102,6 +112,11 @@ bool Terms::has_cases(const Json& term, const dem::Parameters& at) const {
   if (const Json* parts = parts_of(term)) {
     return std::ranges::all_of(*parts, [&](const Json& part) { return has_cases(part, at); });
   }
+  if (term.contains("effect")) {
+    return has_cases(term.at("on"), at) && std::ranges::all_of(raised_places(term, at), [&](const auto& place) {
+             return has_cases(term.at("on"), place);
+           });
+  }
   if (term.contains("fit")) {  // through compression tests at several pressures
     return std::ranges::any_of(study_.cases, [](const CaseResult& one) { return one.test() == "compression"; });
   }
@@ -168,6 +183,11 @@ double Terms::value(const Json& term, const dem::Parameters& at, std::optional<d
     std::vector<double> values;
     for (const Json& part : *parts) values.push_back(value(part, at, seed));
     found = combined(term, values);
+  } else if (term.contains("effect")) {
+    const double as_it_is = value(term.at("on"), at, seed);
+    if (as_it_is == 0) throw NotComputed{"nothing to compare with"};
+    for (const dem::Parameters& place : raised_places(term, at))
+      found += std::abs(value(term.at("on"), place, seed) / as_it_is - 1);
   } else if (term.contains("constant")) {
     found = term.at("constant").get<double>();
   } else if (term.contains("fit")) {
@@ -220,6 +240,8 @@ std::vector<std::pair<std::string, std::string>> results_of(const Json& term) {
     for (const Json& part : *parts) {
       for (auto& one : results_of(part)) found.push_back(std::move(one));
     }
+  } else if (term.contains("on")) {
+    found = results_of(term.at("on"));
   } else if (term.contains("of")) {
     found.emplace_back(term.at("of").get<std::string>(), term.value("test", ""));
   }

@@ -9,6 +9,8 @@
 //   {"difference": [TERM, TERM]}  {"quotient": [TERM, TERM]}  {"distance": [TERM, TERM]}: the difference without its sign
 //   {"furthest": "contact_share.*", "apart": [TERM, TERM]}: the largest distance of any member of the family; the terms name
 //                                                 cases without "of"
+//   {"effect": ["cohesion", ...], "on": TERM}    relative change of the term when a parameter is raised (sweep.raised), without
+//                                                 its sign; of several parameters, each raised alone, the sum
 //   "times": 100 scales any of them.
 #include <nlohmann/json_fwd.hpp>
 #include <optional>

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -354,6 +355,39 @@ TEST_CASE("figures stand with one case and with none") {
       CHECK_NOTHROW((void)figure.make(made.study()));
     }
   }
+}
+
+TEST_CASE("what a parameter does is told seed by seed, and apart from scatter") {
+  Made made("ldb_sensitivity", "sensitivity.factor = 1.2");
+  const auto add = [&](const std::string& raised, double seed, double pressure, double ucs) {
+    dem::Record& record = made.add(fmt::format("c{}", made.records.size()), "compression", pressure, 0, "", seed);
+    record.parameters.emplace_back("raised", raised);
+    record.put(quantity::compressive_strength, ucs);
+  };
+  // Specimens scatter by 5 %, and the cohesion adds a tenth to each; friction does now this, now that.
+  constexpr std::array base{200.0, 210.0, 190.0}, friction{1.04, 0.97, 1.01};
+  for (std::size_t k = 0; k < base.size(); ++k) {
+    const double seed = static_cast<double>(k + 1);
+    for (const double pressure : {0.0, 20.0}) {
+      const double peak = dem::analysis::hoek_brown(pressure, base[k], 29, 1);
+      add("", seed, pressure, peak);
+      add("cohesion", seed, pressure, 1.1 * base[k] + peak - base[k]);
+      add("interaction.friction", seed, pressure, friction[k] * peak);
+    }
+  }
+  const auto& figures = reports::figures();
+  const auto figure = std::ranges::find(figures, "sensitivities", &reports::Figure::id);
+  const reports::FigureContent content = figure->make(made.study());
+  CHECK(has(content.finding, "UCS by C_b (+10.0 ± 0.0 %)"));
+  CHECK(has(content.finding, "m by C_b"));
+  const auto table = std::ranges::find(content.panels, "table", &reports::Panel::id);
+  REQUIRE(table != content.panels.end());
+  const auto& rows = std::get<reports::TextTable>(table->content);
+  const auto column = std::ranges::find(rows.head, "UCS (%)") - rows.head.begin();
+  REQUIRE(rows.rows.size() == 2);
+  CHECK(rows.rows[1].front() == "α_μ");
+  CHECK(rows.rows[1].at(static_cast<std::size_t>(column)) == "+0.7 ± 8.7");  // t of two degrees of freedom: 4.30
+  CHECK(rows.rows[0].at(static_cast<std::size_t>(std::ranges::find(rows.head, "TS (%)") - rows.head.begin())) == "–");
 }
 
 TEST_CASE("repeats give means, error bars and trends paired by seed") {

@@ -331,6 +331,27 @@ TEST_CASE_FIXTURE(Fixture, "at another scale nothing is judged, and what grows w
             .empty());
 }
 
+TEST_CASE_FIXTURE(Fixture, "the effect of a parameter is a relative change without its sign, of several the sum") {
+  const auto raised = [&](const std::string& name, double seed, double ucs) {
+    records.push_back(made(1, seed, ucs));
+    records.back().case_id += "_" + name;
+    records.back().parameters.emplace_back("raised", name);
+  };
+  raised("cohesion", 1, 206 * 1.1);
+  raised("friction", 1, 206 * 0.95);
+  const std::string ucs = R"({"test": "compression", "aspect_ratio": 1, "of": "compressive_strength"})";
+  const auto effect = [&](const std::string& names) {
+    return one(value("[0.5, 1]", R"({"absolute": 0})", R"("of": {"effect": )" + names + R"(, "on": )" + ucs + "}"));
+  };
+  CHECK(std::get<double>(*effect(R"(["cohesion"])").computed) == doctest::Approx(0.1));
+  CHECK(std::get<double>(*effect(R"(["friction"])").computed) == doctest::Approx(0.05));
+  CHECK(std::get<double>(*effect(R"(["cohesion", "friction"])").computed) == doctest::Approx(0.15));
+  const std::string entry = R"({"id": "x", "topics": [], "source": "S", "quantity": "Q", )" +
+                            value("1", R"({"absolute": 0})", R"("of": {"effect": ["modulus"], "on": )" + ucs + "}") +
+                            "}";
+  CHECK(compared(entry, study()).empty());  // nobody raised it
+}
+
 TEST_CASE_FIXTURE(Fixture, "other readings stand under their number and do not count") {
   const std::string entry = R"({"id": "x", "topics": [], "source": "S", "quantity": "Q", )" +
                             value("206", R"({"relative": 0.01})") +
