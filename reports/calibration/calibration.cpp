@@ -404,14 +404,16 @@ class Work {
     const Eigen::MatrixXd spread = search::covariance(weighed, known.free);
     result_.condition = known.condition;
     const double wide = dem::analysis::student_limit(0.05, known_freedom + plan_.seeds - 1);
+    // What the last round of fresh seeds leaves to be taken out lies inside the interval as well.
+    const std::vector<double> best = is_confirmed_ ? search::step(problem, x_, fresh.mean, jacobian_, 0, 0.3) : x_;
     result_.correlation = Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
     for (std::size_t k = 0; k < n; ++k) {
       const auto at = static_cast<Eigen::Index>(k);
       const double deviation = std::sqrt(std::max(spread(at, at), 0.0));
       ParameterResult one{result_.subject.moved[k],
                           std::exp(x_[k]),
-                          std::exp(x_[k] - wide * deviation),
-                          std::exp(x_[k] + wide * deviation),
+                          std::exp(std::min(x_[k], best[k]) - wide * deviation),
+                          std::exp(std::max(x_[k], best[k]) + wide * deviation),
                           {}};
       one.is_determined = known.free[k] && !lost_[k];
       for (const double start : moved_[k].start) one.values.push_back(rounded(start * std::exp(x_[k]), moved_[k].unit));

@@ -93,7 +93,7 @@ std::map<double, double> m_by(const Specimens& specimens, double pressure) {
   for (const auto& [seed, value] : peak) {
     const auto at = ucs.find(seed);
     if (at == ucs.end()) continue;
-    const double sigma_c = at->second / 1e6, rise = value / 1e6 - pressure;  // MPa
+    const double sigma_c = at->second, rise = value - pressure;  // MPa
     found[seed] = (rise * rise / sigma_c - sigma_c) / pressure;
   }
   return found;
@@ -123,20 +123,29 @@ std::vector<Observed> observed(const Group& group) {
   return all;
 }
 
-/// Relative change (%) by raising a parameter, seed by seed.
-Estimate change(const Group& group, const std::string& raised, const Observed& of) {
+/// Relative change (%) by raising a parameter: each seed against itself.
+struct Change {
+  Estimate mean;
+  double deviation = 0;  ///< between seeds
+  std::size_t seeds = 0;
+  [[nodiscard]] bool is_known() const { return seeds > 0; }
+  /// Whether it stands out of the scatter of seeds; of one or two, nobody knows.
+  [[nodiscard]] bool is_clear() const { return !mean.has_interval() || mean.low > 0 || mean.high < 0; }
+};
+
+Change change(const Group& group, const std::string& raised, const Observed& of) {
   const auto base = of.read(group.of.at("")), now = of.read(group.of.at(raised));
   std::vector<double> changes;
   for (const auto& [seed, value] : now) {
     if (const auto at = base.find(seed); at != base.end()) changes.push_back(100 * (value / at->second - 1));
   }
-  return analysis::mean_of(changes);
+  return {analysis::mean_of(changes), analysis::spread(changes).deviation, changes.size()};
 }
 
-std::string cell(const Estimate& of) {
-  if (!std::isfinite(of.value)) return "–";
-  const std::string mean = (of.value >= 0.05 ? "+" : "") + fixed(of.value, 1);
-  return of.has_interval() ? mean + " ± " + fixed(0.5 * (of.high - of.low), 1) : mean;
+std::string cell(const Change& of) {
+  if (!of.is_known()) return "–";
+  const std::string mean = (of.mean.value >= 0.05 ? "+" : "") + fixed(of.mean.value, 1);
+  return of.seeds > 1 ? mean + " ± " + fixed(of.deviation, 1) : mean;
 }
 
 std::string file_part(std::string name) {
@@ -178,11 +187,11 @@ std::optional<render::Chart> bars(const Group& group, const std::vector<MicroPar
     if (!named && !(rest && of.head.starts_with("peak"))) continue;
     std::vector<double> means, errors;
     for (const MicroParameter& parameter : parameters) {
-      const Estimate found = change(group, parameter.name, of);
-      means.push_back(found.value);
-      errors.push_back(found.has_interval() ? 0.5 * (found.high - found.low) : std::nan(""));
-      any = any || std::isfinite(found.value);
-      whiskers = whiskers || found.has_interval();
+      const Change found = change(group, parameter.name, of);
+      means.push_back(found.mean.value);
+      errors.push_back(found.seeds > 1 ? found.deviation : std::nan(""));
+      any = any || found.is_known();
+      whiskers = whiskers || found.seeds > 1;
     }
     bars.colours.push_back(render::palette(bars.labels.size()));
     bars.labels.push_back(indexed(of.head));
@@ -201,18 +210,17 @@ std::optional<render::Chart> bars(const Group& group, const std::vector<MicroPar
 /// "E follows α_E (+7.2 %)": the parameter that moves a result most, where that stands out of the scatter.
 std::string follows(const Group& group, const std::vector<MicroParameter>& parameters, const Observed& of) {
   const MicroParameter* most = nullptr;
-  Estimate largest;
-  bool clear_ones = false;
+  Change largest;
+  bool any = false;
   for (const MicroParameter& parameter : parameters) {
-    const Estimate found = change(group, parameter.name, of);
-    if (!std::isfinite(found.value)) continue;
-    clear_ones = clear_ones || found.has_interval();
-    const bool is_clear = !found.has_interval() || found.low > 0 || found.high < 0;
-    if (!is_clear || (most && std::abs(found.value) <= std::abs(largest.value))) continue;
+    const Change found = change(group, parameter.name, of);
+    any = any || found.is_known();
+    if (!found.is_known() || !found.is_clear() || found.mean.value == 0) continue;
+    if (most && std::abs(found.mean.value) <= std::abs(largest.mean.value)) continue;
     most = &parameter;
     largest = found;
   }
-  if (!most) return clear_ones ? of.words + ": none clearly" : "";
+  if (!most) return any ? of.words + ": none clearly" : "";
   return fmt::format("{} by {} ({} %)", of.words, symbol_of(*most, group.mineral), cell(largest));
 }
 
@@ -225,7 +233,7 @@ FigureContent sensitivities(const StudyResult& study) {
   if (groups.empty()) return content;
   const double factor = study.scenario->real("sensitivity.factor");
   std::vector<std::string> said;
-  bool boundaries = false, of_minerals = false, whiskers = false;
+  bool boundaries = false, of_minerals = false, several = false;
   for (const Group& group : groups) {
     std::vector<MicroParameter> parameters;
     for (const std::string& name : group.raised)
@@ -254,8 +262,8 @@ FigureContent sensitivities(const StudyResult& study) {
       std::vector<std::string> row = {symbol_of(parameter, group.mineral), plain_words(parameter),
                                       parameter.is_of_boundaries() && same ? shortest(parameter.start.front()) : "–"};
       for (const Observed& of : all) {
-        const Estimate found = change(group, parameter.name, of);
-        whiskers = whiskers || found.has_interval();
+        const Change found = change(group, parameter.name, of);
+        several = several || found.seeds > 1;
         row.push_back(cell(found));
       }
       table.rows.push_back(std::move(row));
@@ -269,7 +277,7 @@ FigureContent sensitivities(const StudyResult& study) {
          .caption =
              fmt::format("Changes of {} in %, each parameter alone times {}{}. Seeds are compared with themselves{}.",
                          whose, shortest(factor), of_minerals ? "; E_b with E_c, and k_b with k_c" : "",
-                         whiskers ? ": means over seeds, ± half the 95 % interval" : ""),
+                         several ? ": means and standard deviations" : ""),
          .alt = "",
          .content = table,
          .per_row = 1});
@@ -294,8 +302,9 @@ FigureContent sensitivities(const StudyResult& study) {
   }
   if (said.empty()) return content;
   content.finding = "What moves each result most" +
-                    std::string(whiskers ? "" : ", in one specimen, which tells no scatter") + ": " +
-                    joined(said, ". ") + ".";
+                    std::string(several ? ", where the 95 % interval over seeds tells it from scatter"
+                                        : ", in one specimen, which tells no scatter") +
+                    ": " + joined(said, ". ") + ".";
   content.headline = content.finding;
   return content;
 }
