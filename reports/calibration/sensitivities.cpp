@@ -28,16 +28,16 @@ constexpr std::array mineral{
 };
 constexpr double nu_of_mineral = 0.101;
 
-// Second table: coefficients on the boundaries of Lac du Bonnet granite. friction_angle was not measured.
+// Second table: coefficients on the boundaries of Lac du Bonnet granite (ldb_sensitivity, likewise).
 constexpr std::array boundaries{
-    Row{"interaction.modulus", {7.2, 0.8, 3.7, -1.4, 1, -5, 0, 0}},
-    Row{"interaction.stiffness_ratio", {-2.3, 12, -4.7, -3.9, -16, -10, -2, 0}},
-    Row{"interaction.tensile_strength", {0, -6.3, 2.9, 19, 5, 16, 0, 0}},
-    Row{"interaction.cohesion", {0, 0, 0, 0, 0, 0, 2, 0}},
-    Row{"interaction.friction", {0.4, -0.8, 3.2, 0, 3, 3, 0, 0}},
-    Row{"interaction.friction_angle", {0, 0, 0, 0, 0, 0, 1, 0}},
+    Row{"interaction.modulus", {6.6, 0, 3.7, -4.0, 0, -6.9, 0, 0}},
+    Row{"interaction.stiffness_ratio", {-2.2, 9.0, 0, -4.0, -6.5, -9.7, 0, 10.8}},
+    Row{"interaction.tensile_strength", {0, -4.3, 0, 18.9, 3.8, 18.1, 0, 0}},
+    Row{"interaction.cohesion", {0, 0, 0, 0, 0, 0, 0, 0}},
+    Row{"interaction.friction", {0.4, -1.3, 0, 0, 0, 0, 0, 0}},
+    Row{"interaction.friction_angle", {0, 0, 0, 0, 0, 0, 0, 0}},
 };
-constexpr double nu_of_rock = 0.183;
+constexpr double nu_of_rock = 0.191;
 constexpr double peak_pressure = 20;  // MPa, of the column "peaks"
 
 template <class Rows>

@@ -385,7 +385,7 @@ TEST_CASE("what a parameter does is told seed by seed, and apart from scatter") 
   const auto& rows = std::get<reports::TextTable>(table->content);
   const auto column = std::ranges::find(rows.head, "UCS (%)") - rows.head.begin();
   REQUIRE(rows.rows.size() == 2);
-  CHECK(rows.rows[1].front() == "α_μ");
+  CHECK(rows.rows[1].front() == "α_μ, friction (1)");
   CHECK(rows.rows[1].at(static_cast<std::size_t>(column)) == "+0.7 ± 3.5");
   CHECK(rows.rows[0].at(static_cast<std::size_t>(std::ranges::find(rows.head, "TS (%)") - rows.head.begin())) == "–");
 }

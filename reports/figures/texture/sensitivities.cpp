@@ -166,12 +166,15 @@ std::string symbol_of(const MicroParameter& parameter, const std::string& alone)
   return parameter.symbol + (said ? "" : ", " + owner);
 }
 
-std::string plain_words(const MicroParameter& parameter) {
-  const std::string& kind = parameter.kind;
-  if (parameter.is_of_boundaries()) return words(kind.substr(kind.find('.') + 1)) + " of boundaries";
-  if (kind == "modulus") return "moduli of contacts and bonds";
-  if (kind == "stiffness_ratio") return "stiffness ratios of contacts and bonds";
-  return words(kind);
+// "α_E, modulus (0.9)", "C_b, cohesion": coefficients with the value that they start from.
+std::string in_words(const MicroParameter& parameter, const std::string& alone) {
+  const std::string symbol = symbol_of(parameter, alone);
+  if (parameter.is_of_boundaries())
+    return fmt::format("{}, {} ({})", symbol, words(parameter.kind.substr(parameter.kind.find('.') + 1)),
+                       shortest(parameter.start.front()));
+  if (parameter.kind == "modulus") return symbol + ", moduli";
+  if (parameter.kind == "stiffness_ratio") return symbol + ", stiffness ratios";
+  return symbol + ", " + words(parameter.kind);
 }
 
 /// Bars of some results, a group for each parameter; nothing where none has a value.
@@ -255,22 +258,16 @@ FigureContent sensitivities(const StudyResult& study) {
         bars(group, parameters, all, {"σ_ci", "σ_cd"}));
     add("confined", "Peak under confining pressure, and the Hoek-Brown m by it",
         bars(group, parameters, all, {"m"}, true));
-    TextTable table{{"Raised", "In words", "Value"}, {}};
+    TextTable table{{"Raised"}, {}};
     for (const Observed& of : all) table.head.push_back(of.head + " (%)");
     for (const MicroParameter& parameter : parameters) {
-      const bool same = std::ranges::all_of(parameter.start, [&](double v) { return v == parameter.start.front(); });
-      std::vector<std::string> row = {symbol_of(parameter, group.mineral), plain_words(parameter),
-                                      parameter.is_of_boundaries() && same ? shortest(parameter.start.front()) : "–"};
+      std::vector<std::string> row = {in_words(parameter, group.mineral)};
       for (const Observed& of : all) {
         const Change found = change(group, parameter.name, of);
         several = several || found.seeds > 1;
         row.push_back(cell(found));
       }
       table.rows.push_back(std::move(row));
-    }
-    if (std::ranges::all_of(table.rows, [](const auto& row) { return row[2] == "–"; })) {
-      table.head.erase(table.head.begin() + 2);
-      for (auto& row : table.rows) row.erase(row.begin() + 2);
     }
     content.panels.push_back(
         {.id = "table" + suffix,
