@@ -346,7 +346,7 @@ std::uintmax_t size_of(const fs::path& folder) {
 
 }  // namespace
 
-std::uintmax_t most_bytes(const std::string& scale) { return scale == "smoke" ? 300'000 : 1'500'000; }
+std::uintmax_t most_bytes(const std::string& scale) { return scale == "smoke" ? 330'000 : 1'500'000; }
 
 bool is_reference(const fs::path& folder) {
   std::error_code error;
