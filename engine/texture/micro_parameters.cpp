@@ -31,6 +31,7 @@ const std::vector<Property>& properties() {
 }
 
 constexpr double steepest_angle = 1.5;               // rad, some 86 degrees
+constexpr double largest_of_friction_angle = 1.5;    // the coefficient, as its key allows
 constexpr double low_factor = 0.2, high_factor = 5;  // of coefficients
 
 std::string key_of(std::size_t mineral, std::string_view key) { return fmt::format("mineral[{}].{}", mineral, key); }
@@ -63,7 +64,8 @@ MicroParameter of_boundaries(const Scenario& scenario, const Property& one) {
                       .high = high_factor};
   made.keys = {made.name};
   made.start = {scenario.real(made.name)};
-  if (one.name == "friction_angle") made.high = std::min(made.high, 1.5 / std::max(made.start.front(), 1e-9));
+  if (one.name == "friction_angle")
+    made.high = std::min(made.high, largest_of_friction_angle / std::max(made.start.front(), 1e-9));
   return made;
 }
 

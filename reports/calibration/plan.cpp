@@ -320,6 +320,13 @@ Plan make_plan(const dem::Scenario& scenario, std::span<const dem::Measurable> m
       };
       const auto of_minerals = [&](const std::string& name) { add((owner.empty() ? "" : owner + ".") + name); };
       if (owner.empty() && minerals_alone) {
+        if (!boundaries && scenario.text("interaction.between") == "minerals") {
+          throw scenario.error(
+              "measured",
+              "the rock has one mineral, whose own measured values set its parameters: none is left to "
+              "move",
+              "write all that was measured in one of the two tables, [measured] or [mineral.measured]");
+        }
         of_boundaries({"tensile_strength", "modulus", "stiffness_ratio", "cohesion", "friction"});
       } else {
         of_minerals("modulus");

@@ -28,14 +28,16 @@ constexpr std::array mineral{
 };
 constexpr double nu_of_mineral = 0.101;
 
-// Second table: coefficients on the boundaries of Lac du Bonnet granite (ldb_sensitivity, likewise).
+// Second table: coefficients on the boundaries of Lac du Bonnet granite (ldb_sensitivity, likewise). Cohesion and friction angle
+// act under pressure alone: there their means stand, although three seeds do not tell them from none, because a user may name
+// them and measure better.
 constexpr std::array boundaries{
     Row{"interaction.modulus", {6.6, 0, 3.7, -4.0, 0, -6.9, 0, 0}},
     Row{"interaction.stiffness_ratio", {-2.2, 9.0, 0, -4.0, -6.5, -9.7, 0, 10.8}},
     Row{"interaction.tensile_strength", {0, -4.3, 0, 18.9, 3.8, 18.1, 0, 0}},
-    Row{"interaction.cohesion", {0, 0, 0, 0, 0, 0, 0, 0}},
+    Row{"interaction.cohesion", {0, 0, 0, 0, 0, 0, 3.5, 9.4}},
     Row{"interaction.friction", {0.4, -1.3, 0, 0, 0, 0, 0, 0}},
-    Row{"interaction.friction_angle", {0, 0, 0, 0, 0, 0, 0, 0}},
+    Row{"interaction.friction_angle", {0, 0, 0, 0, 0, 0, 3.4, 9.1}},
 };
 constexpr double nu_of_rock = 0.191;
 constexpr double peak_pressure = 20;  // MPa, of the column "peaks"

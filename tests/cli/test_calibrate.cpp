@@ -203,6 +203,8 @@ TEST_CASE("bad input ends with what to do, before anything is written") {
   refused(at_start("ucs = \"200 MPa +- 5\"\n", "parameters = [\"stone.cohession\"]"), "there is no parameter");
   refused(at_start("ucs = \"200 MPa +- 5\"\n", "parameters = [\"quarz.cohesion\"]"), "there is no mineral");
   refused(at_start("ucs = \"200 MPa +- 5\"\n", "ranges = [\"stone.cohesion 2-3\"]"), "does not hold the start");
+  refused(at_start("ucs = \"200 MPa +- 5\"\n") + "[measured]\nyoung_modulus = \"70 GPa +- 1\"\n",
+          "the rock has one mineral, whose own measured values");
   const test::Outcome lattice = test::run_program(
       scratch.path(), {"calibrate", DEM_SOURCE_DIR "/scenarios/quartzite_elastic.toml", "--scale", "smoke"});
   CHECK(lattice.code == 2);

@@ -271,10 +271,10 @@ FigureContent sensitivities(const StudyResult& study) {
     }
     content.panels.push_back(
         {.id = "table" + suffix,
-         .caption =
-             fmt::format("Changes of {} in %, each parameter alone times {}{}. Seeds are compared with themselves{}.",
-                         whose, shortest(factor), of_minerals ? "; E_b with E_c, and k_b with k_c" : "",
-                         several ? ": means and standard deviations" : ""),
+         .caption = fmt::format("Changes of {} in %, each parameter alone times {}{}.{}", whose, shortest(factor),
+                                of_minerals ? "; E_b with E_c, and k_b with k_c" : "",
+                                several ? " Each seed is compared with itself: means and standard deviations."
+                                        : " One specimen, compared with itself."),
          .alt = "",
          .content = table,
          .per_row = 1});
