@@ -3,7 +3,7 @@ add_library(dem_synthetic STATIC reports/synthetic.cpp)
 target_link_libraries(dem_synthetic PUBLIC dem_reports PRIVATE dem_texture dem_warnings)
 target_compile_definitions(dem_synthetic PRIVATE DEM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 
-dem_test(test_report_parts SOURCES reports/test_parts.cpp LIBRARIES dem_synthetic nlohmann_json::nlohmann_json)
+dem_test(test_report_parts SOURCES reports/test_parts.cpp LIBRARIES dem_synthetic dem_sheet nlohmann_json::nlohmann_json)
 dem_test(test_report_readings SOURCES reports/test_readings.cpp LIBRARIES dem_analysis)
 dem_test(test_report_published SOURCES reports/test_published.cpp LIBRARIES dem_synthetic dem_lattice)
 dem_test(test_report_laboratory SOURCES reports/test_laboratory.cpp LIBRARIES dem_synthetic nlohmann_json::nlohmann_json)

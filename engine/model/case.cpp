@@ -63,6 +63,34 @@ void refuse_repeated(const Scenario& scenario, std::string_view path, const std:
   refuse(scenario, path, values);
 }
 
+Key repeats_key() {
+  return {.path = "repeats",
+          .type = KeyType::integer,
+          .low = 1,
+          .high = 1000,
+          .standard = "1",
+          .affects = Affects::cases,
+          .help = "specimens of each kind, with seed, seed + 1, ...: tells a trend from scatter"};
+}
+
+std::vector<std::int64_t> seeds_of(const Scenario& scenario) {
+  const auto first = static_cast<std::int64_t>(scenario.seed());
+  const std::int64_t repeats = scenario.integer("repeats");
+  if (const std::int64_t room = largest_seed - first; repeats - 1 > room) {
+    throw scenario.error("repeats",
+                         fmt::format("the last of {} seeds from {} on is beyond {}", repeats, first, largest_seed),
+                         room > 0 ? fmt::format("ask for at most {}, or begin with a smaller seed", room + 1)
+                                  : "begin with a smaller seed");
+  }
+  std::vector<std::int64_t> seeds;
+  for (std::int64_t k = 0; k < repeats; ++k) seeds.push_back(first + k);
+  return seeds;
+}
+
+std::string seed_part(const Scenario& scenario, std::int64_t seed) {
+  return seed == static_cast<std::int64_t>(scenario.seed()) ? "" : fmt::format("_seed_{}", seed);
+}
+
 const std::string& CaseSpec::test() const {
   const ParameterValue* value = find_value(parameters, "test");
   const auto* name = value ? std::get_if<std::string>(value) : nullptr;

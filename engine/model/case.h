@@ -42,6 +42,13 @@ void refuse_repeated(const Scenario& scenario, std::string_view path, const std:
 void refuse_repeated(const Scenario& scenario, std::string_view path, const std::vector<double>& values);
 void refuse_repeated(const Scenario& scenario, std::string_view path, const std::vector<std::string>& values);
 
+/// The key `repeats` of a model whose specimens have a seed, and the seeds that it asks for: seed, seed + 1, ... Throws
+/// InputError when the last of them is too large.
+Key repeats_key();
+std::vector<std::int64_t> seeds_of(const Scenario& scenario);
+/// How their cases are told apart: nothing for the scenario's own, "_seed_2".
+std::string seed_part(const Scenario& scenario, std::int64_t seed);
+
 /// A value as part of an id, of a-z, 0-9 and _ alone, whatever the value: 1.5 is "1_5", -1 "m1", "Alkali feldspar"
 /// "alkali_feldspar". The one place where values become names of folders and files.
 std::string id_part(double value);

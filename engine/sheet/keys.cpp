@@ -12,6 +12,7 @@
 #include <optional>
 #include <set>
 
+#include "engine/model/case.h"
 #include "engine/scenario/suggest.h"
 
 namespace dem::sheet {
@@ -254,6 +255,7 @@ std::vector<Key> declare() {
        .affects = Affects::test,
        .when = {"historical"},
        .help = "historical: largest move that counts as equilibrium, box widths"},
+      repeats_key(),
       {.path = "sweep.spread",
        .type = KeyType::reals,
        .low = 0,

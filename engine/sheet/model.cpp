@@ -43,6 +43,44 @@ std::vector<std::pair<std::string, std::string>> idle_keys(const Scenario& s, co
   return idle;
 }
 
+// A broken file, a map that does not cover the sheet or has too few grains, and a rule that fits nothing are found before
+// anything runs.
+void refuse_specimen(const Scenario& s, const Settings& settings) {
+  if (settings.source != "file" && settings.expanding == 0 && settings.rules.empty()) return;
+  try {
+    (void)make_specimen(settings);
+  } catch (const RuleError& rule) {
+    throw s.error(fmt::format("rule[{}].{}", rule.rule, rule.key), rule.wrong, rule.right());
+  } catch (const TooFewInside& few) {
+    throw s.error(
+        "grains.expanding",
+        fmt::format("{} grains should expand, but only {} lie inside the box", settings.expanding, few.inside),
+        "lower it or raise grains.count");
+  }
+}
+
+CaseSpec case_of(Scenario one, std::string id, bool check) {
+  const Settings settings = read_settings(one);
+  if (check) refuse_specimen(one, settings);
+  const std::string kind = one.text("loading.kind");
+  std::string inputs;
+  if (settings.source == "file")
+    inputs = "map = " + sha256(read_input(settings.file, largest_map, {}, "grains.file")) + "\n";
+  const auto of = [](const Parameter& parameter, ParameterValue value) {
+    return std::pair{std::string(parameter.id), std::move(value)};
+  };
+  Parameters parameters = {{"test", kind},
+                           of(parameter::spread, one.real("disorder.spread")),
+                           of(parameter::solver, settings.solver),
+                           of(parameter::columns, static_cast<double>(settings.columns)),
+                           of(parameter::seed, static_cast<double>(settings.seed))};
+  auto idle = idle_keys(one, settings);
+  CaseSpec made =
+      make_case(model(), std::move(id), std::move(one), std::move(parameters), {kind, settings.solver}, inputs);
+  made.idle = std::move(idle);
+  return made;
+}
+
 std::vector<CaseSpec> cases(const Scenario& s) {
   const std::string& kind = s.text("loading.kind");
   std::vector<double> spreads = s.reals("sweep.spread");
@@ -50,44 +88,22 @@ std::vector<CaseSpec> cases(const Scenario& s) {
   if (!swept) spreads.push_back(s.real("disorder.spread"));
   refuse_repeated(s, "sweep.spread", s.reals("sweep.spread"));
   refuse_repeated(s, "solvers", s.texts("solvers"));
+  const std::vector<std::int64_t> seeds = seeds_of(s);
   std::vector<CaseSpec> all;
   for (const std::string& solver : s.texts("solvers")) {
     const bool main = solver == s.texts("solvers").front();
     for (const double spread : spreads) {
-      if (!main && spread != spreads.front()) continue;  // another solver is set beside the first case
-      Scenario one = s.with("solvers", std::vector<std::string>{solver})
-                         .with("disorder.spread", spread, swept ? "sweep.spread" : "");
-      const Settings settings = read_settings(one);
-      std::string id = kind;
-      if (swept) id += "_spread_" + id_part(spread);
-      if (!main) id += "_" + solver;
-      // A broken file, a map that does not cover the sheet or has too few grains, and a rule that fits nothing are
-      // found before anything runs.
-      if (all.empty() && (settings.source == "file" || settings.expanding > 0 || !settings.rules.empty())) {
-        try {
-          (void)make_specimen(settings);
-        } catch (const RuleError& rule) {
-          throw s.error(fmt::format("rule[{}].{}", rule.rule, rule.key), rule.wrong, rule.right());
-        } catch (const TooFewInside& few) {
-          throw s.error(
-              "grains.expanding",
-              fmt::format("{} grains should expand, but only {} lie inside the box", settings.expanding, few.inside),
-              "lower it or raise grains.count");
-        }
+      for (const std::int64_t seed : seeds) {
+        // Another solver is set beside the first case.
+        if (!main && (spread != spreads.front() || seed != seeds.front())) continue;
+        std::string id = kind;
+        if (swept) id += "_spread_" + id_part(spread);
+        if (!main) id += "_" + solver;
+        all.push_back(case_of(s.with("solvers", std::vector<std::string>{solver})
+                                  .with("disorder.spread", spread, swept ? "sweep.spread" : "")
+                                  .with("seed", seed),
+                              std::move(id) + seed_part(s, seed), main && spread == spreads.front()));
       }
-      std::string inputs;
-      if (settings.source == "file")
-        inputs = "map = " + sha256(read_input(settings.file, largest_map, {}, "grains.file")) + "\n";
-      const auto of = [](const Parameter& parameter, ParameterValue value) {
-        return std::pair{std::string(parameter.id), std::move(value)};
-      };
-      Parameters parameters = {{"test", kind},
-                               of(parameter::spread, spread),
-                               of(parameter::solver, solver),
-                               of(parameter::columns, static_cast<double>(settings.columns))};
-      auto idle = idle_keys(one, settings);
-      all.push_back(make_case(model(), std::move(id), std::move(one), std::move(parameters), {kind, solver}, inputs));
-      all.back().idle = std::move(idle);
     }
   }
   return all;

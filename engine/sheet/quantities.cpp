@@ -50,7 +50,7 @@ std::span<const Quantity> quantities() {
 
 std::span<const Parameter> parameters() {
   using namespace parameter;
-  static constexpr std::array declared{spread, solver, columns};
+  static constexpr std::array declared{spread, solver, columns, seed};
   return declared;
 }
 

@@ -247,6 +247,7 @@ inline constexpr Parameter spread{.id = "spread",
 inline constexpr Parameter solver{.id = "solver", .name = "Solver", .symbol = "solver", .usual = "converged"};
 inline constexpr Parameter columns{
     .id = "columns", .name = "Particles in a row", .symbol = "columns", .key = "sheet.columns"};
+inline constexpr Parameter seed{.id = "seed", .name = "Seed", .symbol = "seed", .in_ids = "seed", .key = "seed"};
 
 }  // namespace parameter
 

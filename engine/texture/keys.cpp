@@ -314,13 +314,7 @@ std::vector<Key> declare_study() {
        .choices = names,
        .affects = Affects::cases,
        .help = "tests to run on each specimen; genesis makes it and does not load it"},
-      {.path = "repeats",
-       .type = KeyType::integer,
-       .low = 1,
-       .high = 1000,
-       .standard = "1",
-       .affects = Affects::cases,
-       .help = "specimens of each kind, with seed, seed + 1, ...: tells a trend from scatter"},
+      repeats_key(),
       {.path = "sweep.aspect_ratio",
        .type = KeyType::reals,
        .low = 1,
@@ -420,14 +414,15 @@ std::vector<Key> declare_calibration() {
        .high = 10000,
        .standard = "40",
        .affects = Affects::drawing,
-       .help = "tests that calibrate may run for a mineral, and for the rock"},
+       .help = "tests that calibrate may run for a mineral; for a rock of several minerals twice as many"},
       {.path = "calibrate.seeds",
        .type = KeyType::integer,
        .low = 2,
        .high = 1000,
        .standard = "5",
        .affects = Affects::drawing,
-       .help = "fresh seeds by which calibrate confirms what it has found"},
+       .help = "fresh seeds by which calibrate confirms what it has found; more follow where the laboratory knows its "
+               "values better than these tell"},
   };
 }
 

@@ -97,7 +97,7 @@ CaseSpec case_of(const Scenario& base, const std::string& test, const Variant& v
   if (v.between != base.text("interaction.between")) id += "_between_" + v.between;
   if (v.pressure_ratio != base.real("packing.pressure_ratio")) id += "_pressure_ratio_" + id_part(v.pressure_ratio);
   if (!v.raised.empty()) id += "_" + id_part(v.raised) + "_raised";
-  if (v.seed != static_cast<std::int64_t>(base.seed())) id += fmt::format("_seed_{}", v.seed);
+  id += seed_part(base, v.seed);
   const auto of = [](const Parameter& parameter, ParameterValue value) {
     return std::pair{std::string(parameter.id), std::move(value)};
   };
@@ -143,16 +143,10 @@ std::vector<Variant> variants_of(const Scenario& s, const std::optional<Sweep>& 
       throw s.error(list, "the list is empty", "give at least one value, or leave the key out");
     }
   }
-  const auto repeats = s.integer("repeats");
-  if (const std::int64_t room = largest_seed - static_cast<std::int64_t>(s.seed()); repeats - 1 > room) {
-    throw s.error("repeats",
-                  fmt::format("the last of {} seeds from {} on is beyond {}", repeats, s.seed(), largest_seed),
-                  room > 0 ? fmt::format("ask for at most {}, or begin with a smaller seed", room + 1)
-                           : "begin with a smaller seed");
-  }
+  const std::vector<std::int64_t> seeds = seeds_of(s);
   const auto add_repeats = [&](Variant v, const std::string& key) {
-    for (std::int64_t k = 0; k < repeats; ++k) {
-      v.seed = static_cast<std::int64_t>(s.seed()) + k;
+    for (const std::int64_t seed : seeds) {
+      v.seed = seed;
       add(v, key);
     }
   };

@@ -232,6 +232,43 @@ TEST_CASE("scale bars are round and not too long") {
   CHECK(reports::scale_bar({.metres_per_pixel = 0, .width = 500}).percent == 0);
 }
 
+TEST_CASE("the sheet's runs of several seeds: the first is shown, all are judged") {
+  using namespace reports::sheet;
+  std::vector<dem::Record> records;
+  for (const auto& [solver, seed, share] :
+       {std::tuple{"converged", 1, 0.60}, {"converged", 2, 0.66}, {"converged", 3, 0.63}, {"historical", 1, 0.9}}) {
+    dem::Record record;
+    record.model = "sheet";
+    record.quantities = dem::sheet::quantities();
+    record.seed = static_cast<std::uint64_t>(seed);
+    record.parameters = {
+        {"test", "pure_shear"}, {"spread", 0.6}, {"solver", solver}, {"seed", static_cast<double>(seed)}};
+    record.put(quantity::along_compression_share, share);
+    records.push_back(std::move(record));
+  }
+  const auto study_of = [&](std::size_t count) {
+    reports::StudyResult study;
+    for (std::size_t i = 0; i < count; ++i) study.cases.push_back({"case", records[i].parameters, &records[i], ""});
+    return study;
+  };
+  const auto share = [](const dem::Record& one) { return 100 * one.value(quantity::along_compression_share); };
+  const reports::StudyResult all = study_of(4);
+  CHECK(records_of(all) == std::vector<const dem::Record*>{&records[0], &records[3]});
+  CHECK(seeds_of(all, records[0]).size() == 3);
+  CHECK(seeds_of(all, records[3]).size() == 1);
+  CHECK(label_of(records[0], all) == "converged, seed 1");
+  CHECK(over_seeds_said(all, records_of(all), share, "the share is") ==
+        " Over 3 seeds the share is 63 % (95 % interval 56 to 70) (converged).");
+  CHECK(label_of(records[0], study_of(1)) == "this run");
+  CHECK(over_seeds_said(study_of(1), {&records[0]}, share, "the share is").empty());
+
+  using reports::Agreement;
+  const auto part = [](const dem::Record& one) { return one.value(quantity::along_compression_share); };
+  CHECK(mainly(over_seeds(all, records[0], part), 0.33) == Agreement::agrees);
+  CHECK(mainly({0.55, 0.4, 0.7}, 0.33) == Agreement::undecided);  // the interval reaches below a half
+  CHECK(mainly({0.25, 0.2, 0.3}, 0.33) == Agreement::disagrees);
+}
+
 TEST_CASE("the ledger takes every energy of a history in its role") {
   const auto terms = dem::analysis::ledger_terms(synthetic::compression(1, {.samples = 3}).table("history"));
   REQUIRE(terms.size() == 8);
@@ -386,6 +423,8 @@ TEST_CASE("a case is told by what varies in its test, and by its seed where each
     dem::Record& record = records.emplace_back();
     record.model = "grain_texture";
     record.case_id = std::string(test) + reports::shortest(pressure) + reports::shortest(seed);
+    record.model = "sheet";
+    record.quantities = dem::sheet::quantities();
     record.seed = static_cast<std::uint64_t>(seed);
     record.parameters = {{"test", test}, {"aspect_ratio", 1.0}, {"confining_pressure", pressure}, {"seed", seed}};
     record.results = {{"particles", 600 + seed}};

@@ -56,6 +56,22 @@ TEST_CASE("a solver beside the main one runs the first spread only; ids tell cas
   for (const auto& spec : cases) CHECK(spec.content.find("kind = ") != std::string::npos);
 }
 
+TEST_CASE("repeats are specimens of the following seeds, each as a scenario of that seed makes it") {
+  const auto cases = model().cases(scenario("elle_polycrystal", {"seed=7", "repeats=3", "sweep.spread=[0.6, 0.2]"}));
+  std::vector<std::string> ids;
+  for (const auto& spec : cases) ids.push_back(spec.id);
+  CHECK(ids == std::vector<std::string>{"pure_shear_spread_0_6", "pure_shear_spread_0_6_seed_8",
+                                        "pure_shear_spread_0_6_seed_9", "pure_shear_spread_0_2",
+                                        "pure_shear_spread_0_2_seed_8", "pure_shear_spread_0_2_seed_9",
+                                        "pure_shear_spread_0_6_historical"});
+  const auto alone = model().cases(scenario("elle_polycrystal", {"seed=9", "sweep.spread=[0.6, 0.2]"}));
+  CHECK(cases[2].content == alone[0].content);  // so that its record is kept
+  CHECK(cases[2].content != cases[0].content);
+  CHECK(std::get<double>(*dem::find_value(cases[2].parameters, "seed")) == 9);
+  CHECK_THROWS_WITH_AS((void)model().cases(scenario("elle_polycrystal", {"seed=9007199254740990", "repeats=10"})),
+                       doctest::Contains("the last of 10 seeds"), dem::InputError);
+}
+
 TEST_CASE("values that are wrong together are refused with their place") {
   for (const auto& [name, set] : {std::pair{"elle_polycrystal", "grains.source=\"file\""},
                                   {"elle_polycrystal", "grains.file=\"map.elle\""},

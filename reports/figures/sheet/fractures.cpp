@@ -131,17 +131,23 @@ std::vector<double> off_radial(const dem::Record& r) {
 
 namespace {
 
+double between_percent(const dem::Record& record) { return 100 * between_share(record); }
+
 /// Whether the breaks of all that converged lie at boundaries mainly, and a sentence on those whose do not.
 void judge_boundaries(FigureContent& content, const std::vector<const dem::Record*>& runs, const StudyResult& study) {
   std::optional<Agreement> all;
   for (const dem::Record* r : runs) {
-    const double share = between_share(*r), chance = between_by_chance(*r);
+    const double chance = between_by_chance(*r);
+    const analysis::Estimate share = over_seeds(study, *r, between_share);
     const Agreement one = mainly(share, chance);
     all = !all || *all == one ? one : Agreement::undecided;
     if (one == Agreement::agrees) continue;
-    content.finding +=
-        fmt::format(" {}: the share of {} is {}.", capital(label_of(*r, study)), percent(share, 0),
-                    one == Agreement::disagrees ? "no more than by chance" : "above chance but below half");
+    const std::string kind = kind_of(*r, study);
+    const std::string label = seeds_of(study, *r).size() == 1 ? label_of(*r, study) : kind.empty() ? "all seeds" : kind;
+    content.finding += fmt::format(" {}: the share of {} is {}.", capital(label), percent(share.value, 0),
+                                   one == Agreement::disagrees ? "no more than by chance"
+                                   : share.value < 0.5         ? "above chance but below half"
+                                                               : "above half, with an interval that is not");
   }
   content.agreement = all;
 }
@@ -185,6 +191,10 @@ FigureContent fracture_maps(const StudyResult& study) {
   if (test == "extension") content.statement = "The stiff layer breaks by tension fractures that cross it.";
   std::vector<std::pair<const dem::Record*, double>> maps;
   for (const double strain : strains_of(*r)) maps.emplace_back(r, strain);
+  for (const dem::Record* other : seeds_of(study, *r)) {
+    const std::vector<double> strains = strains_of(*other);
+    if (other != r && !strains.empty()) maps.emplace_back(other, strains.back());
+  }
   for (const dem::Record* other : records_of(study)) {  // how the others end; the historical sweep has its own figure
     const std::vector<double> strains = strains_of(*other);
     if (other == r || other->text("solver") != "converged" || strains.empty()) continue;
@@ -199,7 +209,9 @@ FigureContent fracture_maps(const StudyResult& study) {
       historical = historical || one->text("solver") == "historical";
       if (one->text("solver") == "converged" && one->has(quantity::onset_strain)) runs.push_back(one);
     }
-    content.finding = runs.empty() ? "No spring broke." : shares_said(runs, study);
+    content.finding = runs.empty() ? "No spring broke."
+                                   : shares_said(runs, study) + over_seeds_said(study, runs, between_percent,
+                                                                                "the share at grain boundaries is");
     if (!runs.empty()) judge_boundaries(content, runs, study);
     if (historical) content.finding += " The historical run is in “Converged and historical solvers”.";
     return content;
@@ -229,6 +241,9 @@ FigureContent fracture_maps(const StudyResult& study) {
                     through > 0 ? ": connected broken springs over four fifths of its rows or more" : "");
   }
   content.finding += ".";
+  content.finding += over_seeds_said(
+      study, {r}, [](const dem::Record& one) { return static_cast<double>(one.table("cracks").rows()); },
+      "the number of broken springs is", "");
   if (layered(*r) && !uniform_layer(*r))
     content.finding += " In tables, springs at the layer’s edges count as inter-grain ones.";
   return content;
@@ -237,8 +252,11 @@ FigureContent fracture_maps(const StudyResult& study) {
 FigureContent rose_of_fractures(const StudyResult& study) {
   FigureContent content;
   std::vector<std::string> said;
-  double least = 1, most = 0;
+  std::vector<Agreement> verdicts;
   std::vector<const dem::Record*> shown;
+  const ValueOf shown_share = [](const dem::Record& one) {
+    return one.value_or_nan(quantity::along_compression_share);
+  };
   for (const dem::Record* r : records_of(study)) {
     if (r->has(quantity::along_compression_share) && !known(r->table("cracks").real("trend")).empty())
       shown.push_back(r);
@@ -262,15 +280,16 @@ FigureContent rose_of_fractures(const StudyResult& study) {
                          "direction of compression", render::page_width / per_row),
          .per_row = per_row});
     said.push_back(part_of_trends(share, angles.size(), label));
-    least = std::min(least, share);
-    most = std::max(most, share);
+    verdicts.push_back(mainly(over_seeds(study, *r, shown_share), third));
   }
   content.finding = fmt::format(
       "{} lie within 30° of the compression (by chance a third). The area of a sector is the number of its broken "
       "springs; the outer circle is that of the fullest sector, the inner one that of a quarter as many.",
       listed(said));
-  const Agreement low = mainly(least, third), high = mainly(most, third);
-  content.agreement = low == high ? low : Agreement::undecided;
+  content.finding += over_seeds_said(
+      study, shown, [&](const dem::Record& one) { return 100 * shown_share(one); }, "the share is");
+  const bool alike = std::ranges::all_of(verdicts, [&](Agreement one) { return one == verdicts.front(); });
+  content.agreement = alike ? verdicts.front() : Agreement::undecided;
   if (content.agreement == Agreement::undecided)
     content.finding += " Agreement takes half of them or more in every run, disagreement a third or less.";
   return content;
@@ -316,7 +335,10 @@ FigureContent radial_fractures(const StudyResult& study) {
        .per_row = 1});
   content.finding =
       fmt::format("{} lie within 30° of the radius (by chance a third).", part_of_trends(share, angles.size()));
-  content.agreement = mainly(share, third);
+  const ValueOf radial = [](const dem::Record& one) { return one.value_or_nan(quantity::radial_share); };
+  content.finding += over_seeds_said(
+      study, {r}, [&](const dem::Record& one) { return 100 * radial(one); }, "the share is");
+  content.agreement = mainly(over_seeds(study, *r, radial), third);
   if (content.agreement == Agreement::undecided)
     content.finding += " Agreement takes half of them or more, disagreement a third or less.";
   return content;
@@ -369,14 +391,23 @@ FigureContent spacing(const StudyResult& study) {
         percent(r->value(quantity::spacing_scatter), 0), percent(r->value(quantity::spacing_scatter_chance), 0));
   }
   content.finding += ".";
-  const auto spacing = known(h.real("spacing_over_thickness"));
-  if (spacing.size() > 1) {
+  content.finding +=
+      over_seeds_said(study, {r}, shown(quantity::crossing_fractures), "the number of these fractures is", "") +
+      over_seeds_said(study, {r}, shown(quantity::spacing_over_thickness), "their mean spacing is", "thicknesses");
+  std::vector<Agreement> verdicts;
+  for (const dem::Record* one : seeds_of(study, *r)) {
+    const auto spacing = known(one->table("history").real("spacing_over_thickness"));
+    if (spacing.size() < 2) continue;
     constexpr double about = 2;  // thicknesses
-    content.agreement = spacing.back() >= spacing.front() ? Agreement::disagrees
-                        : spacing.back() <= about         ? Agreement::agrees
-                                                          : Agreement::undecided;
-    if (content.agreement == Agreement::undecided) content.finding += " The spacing falls, but not to one thickness.";
+    verdicts.push_back(spacing.back() >= spacing.front() ? Agreement::disagrees
+                       : spacing.back() <= about         ? Agreement::agrees
+                                                         : Agreement::undecided);
   }
+  if (verdicts.empty()) return content;
+  const bool alike = std::ranges::all_of(verdicts, [&](Agreement one) { return one == verdicts.front(); });
+  content.agreement = alike ? verdicts.front() : Agreement::undecided;
+  if (alike && content.agreement == Agreement::undecided)
+    content.finding += " The spacing falls, but not to one thickness.";
   return content;
 }
 

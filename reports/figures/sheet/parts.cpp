@@ -69,14 +69,56 @@ std::vector<CrackPlace> places_shown(const dem::Record& record) {
   return shown;
 }
 
+std::vector<analysis::Repeats> repeats_of(const StudyResult& study) {
+  std::vector<const CaseResult*> cases;
+  for (const CaseResult& one : study.cases) {
+    if (one.record) cases.push_back(&one);
+  }
+  return analysis::repeats_of(cases);
+}
+
 }  // namespace
 
 std::vector<const dem::Record*> records_of(const StudyResult& study) {
   std::vector<const dem::Record*> all;
-  for (const CaseResult& c : study.cases) {
-    if (c.record) all.push_back(c.record);
+  for (const analysis::Repeats& one : repeats_of(study)) all.push_back(one.front()->record);
+  return all;
+}
+
+std::vector<const dem::Record*> seeds_of(const StudyResult& study, const dem::Record& record) {
+  std::vector<const dem::Record*> all{&record};
+  for (const analysis::Repeats& kind : repeats_of(study)) {
+    const auto is_it = [&](const CaseResult* one) { return one->record == &record; };
+    if (std::ranges::none_of(kind, is_it)) continue;
+    for (const CaseResult* one : kind) {
+      if (!is_it(one)) all.push_back(one->record);
+    }
   }
   return all;
+}
+
+analysis::Estimate over_seeds(const StudyResult& study, const dem::Record& record, const ValueOf& value) {
+  std::vector<double> values;
+  for (const dem::Record* one : seeds_of(study, record)) {
+    if (const double its = value(*one); std::isfinite(its)) values.push_back(its);
+  }
+  return analysis::mean_of(values);
+}
+
+std::string over_seeds_said(const StudyResult& study, const std::vector<const dem::Record*>& runs, const ValueOf& value,
+                            std::string_view what, std::string_view unit) {
+  std::vector<std::string> said;
+  std::size_t seeds = 0;
+  for (const dem::Record* run : runs) {
+    const std::size_t its = seeds_of(study, *run).size();
+    analysis::Estimate mean = over_seeds(study, *run, value);
+    if (unit == "%") mean.low = std::max(mean.low, 0.0), mean.high = std::min(mean.high, 100.0);  // a share
+    if (its < 2 || !std::isfinite(mean.value)) continue;
+    seeds = std::max(seeds, its);
+    const std::string kind = kind_of(*run, study);
+    said.push_back(told(mean, 2, unit) + (kind.empty() ? "" : " (" + kind + ")"));
+  }
+  return said.empty() ? "" : fmt::format(" Over {} seeds {} {}.", seeds, what, listed(said));
 }
 
 const dem::Record* main_record(const StudyResult& study) {
@@ -84,7 +126,7 @@ const dem::Record* main_record(const StudyResult& study) {
   return all.empty() ? nullptr : all.front();
 }
 
-std::string label_of(const dem::Record& record, const StudyResult& study) {
+std::string kind_of(const dem::Record& record, const StudyResult& study) {
   const auto all = records_of(study);
   const auto differs = [&](auto of) {
     return std::ranges::any_of(all, [&](const dem::Record* other) { return of(*other) != of(record); });
@@ -98,7 +140,15 @@ std::string label_of(const dem::Record& record, const StudyResult& study) {
     return other->number("spread") == spread && other->text("solver") != record.text("solver");
   });
   if (both || record.text("solver") == "historical") parts.push_back(record.text("solver"));
-  return parts.empty() ? "this run" : joined(parts, ", ");
+  return joined(parts, ", ");
+}
+
+std::string label_of(const dem::Record& record, const StudyResult& study) {
+  const std::string kind = kind_of(record, study);
+  const bool repeated = std::ranges::any_of(
+      study.cases, [&](const CaseResult& one) { return one.record && one.record->seed != record.seed; });
+  if (!repeated) return kind.empty() ? "this run" : kind;
+  return (kind.empty() ? "" : kind + ", ") + fmt::format("seed {}", record.seed);
 }
 
 // From the counts, which records made before the result had its present name hold as well.
@@ -383,9 +433,11 @@ std::string at_strain(const dem::Record& record, double strain) {
   return (record.text("test") == "growth" ? "a growth of " : "a strain of ") + number(100 * strain, 3) + " %";
 }
 
-Agreement mainly(double share, double chance) {
+Agreement mainly(const analysis::Estimate& share, double chance) {
   constexpr double most = 0.5;
-  return share >= most ? Agreement::agrees : share <= chance ? Agreement::disagrees : Agreement::undecided;
+  const double least = share.has_interval() ? share.low : share.value,
+               largest = share.has_interval() ? share.high : share.value;
+  return least >= most ? Agreement::agrees : largest <= chance ? Agreement::disagrees : Agreement::undecided;
 }
 
 std::vector<std::pair<std::string, double>> snapshots_of(const dem::Record& record) {

@@ -12,11 +12,22 @@ namespace reports::sheet {
 namespace parameter = dem::sheet::parameter;
 namespace quantity = dem::sheet::quantity;
 
-/// All records of the study, in report order; the first is the scenario's own.
+/// The records of the study, in report order, of each kind of specimen that of its first seed; the first is the scenario's own.
 std::vector<const dem::Record*> records_of(const StudyResult& study);
 const dem::Record* main_record(const StudyResult& study);
-/// "spread 0.6", "spread 0.6, historical": what sets a case apart from the others of its study; "this run" alone.
+/// Those of every seed of that kind, this one first.
+std::vector<const dem::Record*> seeds_of(const StudyResult& study, const dem::Record& record);
+/// "spread 0.6", "spread 0.6, historical", "seed 1": what sets a case apart from the others of its study; "this run" alone.
 std::string label_of(const dem::Record& record, const StudyResult& study);
+/// The same without the seed; "" alone.
+std::string kind_of(const dem::Record& record, const StudyResult& study);
+
+/// A value over the seeds of that kind.
+analysis::Estimate over_seeds(const StudyResult& study, const dem::Record& record, const ValueOf& value);
+/// " Over 3 seeds the share is 31 % (95 % interval 28 to 34).", of each run that has several; "" where none has.
+/// `what`: "the share is".
+std::string over_seeds_said(const StudyResult& study, const std::vector<const dem::Record*>& runs, const ValueOf& value,
+                            std::string_view what, std::string_view unit = "%");
 
 /// The sheet as it was laid: columns, rows and radius, in box widths.
 struct Layout {
@@ -78,8 +89,8 @@ std::string crack_words(const dem::Record& record, double strain);
 bool uniform_layer(const dem::Record& record);
 /// "a strain of 0.400 %", "a growth of 0.400 %": how far a run had come.
 std::string at_strain(const dem::Record& record, double strain);
-/// Agrees above a half, disagrees below what chance gives.
-Agreement mainly(double share, double chance);
+/// Agrees above a half, disagrees below what chance gives; with an interval, where all of it does.
+Agreement mainly(const analysis::Estimate& share, double chance);
 /// Where a broken spring lies. A sheet without a layer has the first two places only; in one with a layer they are those of
 /// springs between two particles of the layer.
 enum class CrackPlace { inside, boundary, edge, matrix };

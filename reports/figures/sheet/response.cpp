@@ -207,7 +207,8 @@ std::optional<Agreement> abruptness_agrees(const StudyResult& study, std::string
   std::ranges::sort(along, {}, [](const dem::Record* r) { return r->number("spread"); });
   if (along.size() < 2 || along.front()->number("spread") == along.back()->number("spread")) return std::nullopt;
   const auto falls = [&](const dem::Quantity& of) {
-    return std::ranges::is_sorted(along, std::greater{}, [&](const dem::Record* r) { return r->value_or_nan(of); });
+    return std::ranges::is_sorted(along, std::greater{},
+                                  [&](const dem::Record* r) { return over_seeds(study, *r, shown(of)).value; });
   };
   const bool early = falls(quantity::onset_strain), gradual = falls(quantity::largest_drop_share);
   if (early != gradual) {
@@ -250,6 +251,7 @@ FigureContent stress_strain(const StudyResult& study) {
   const Reach reach = reach_of(study);
   std::vector<std::string> first, worst, falls, unbroken, rising, lasting, failed;
   const bool growth = main->text("test") == "growth";
+  std::size_t seeds = 1;
   TextTable table{{"Run", growth ? "Growth at the first break (%)" : "Strain at the first break (%)",
                    "Most breaks in a step (%\u00a0of\u00a0all)",
                    "Largest fall in a step (%\u00a0of\u00a0the\u00a0largest\u00a0tension)"},
@@ -291,17 +293,29 @@ FigureContent stress_strain(const StudyResult& study) {
     worst.push_back(percent(r->value_or_nan(quantity::worst_step_share), 0) + where);
     const double fall = r->value_or_nan(quantity::largest_drop_share);
     if (fall > 0) falls.push_back(percent(fall, 0) + where);
-    table.rows.push_back({capital(label), number(100 * r->value(quantity::onset_strain), 3),
-                          number(100 * r->value_or_nan(quantity::worst_step_share), 3),
-                          fall > 0 ? number(100 * fall, 3) : "–"});
+    const auto cell = [&](const dem::Quantity& of) {
+      return estimate_text(over_seeds(study, *r, [&](const dem::Record& one) { return 100 * one.value_or_nan(of); }), 3,
+                           true);
+    };
+    const std::size_t its = seeds_of(study, *r).size();
+    seeds = std::max(seeds, its);
+    table.rows.push_back(
+        {capital(its > 1 ? (kind_of(*r, study).empty() ? "" : kind_of(*r, study) + ", ") + fmt::format("{} seeds", its)
+                         : label),
+         cell(quantity::onset_strain), cell(quantity::worst_step_share),
+         fall > 0 ? cell(quantity::largest_drop_share) : "–"});
   }
-  // More than two runs are easier compared in a table than in a sentence.
+  // More than two runs, and means over seeds, are easier compared in a table than in a sentence.
   constexpr std::size_t few = 2;
   bool in_table = false;
-  if (table.rows.size() > few) {
+  if (table.rows.size() > few || seeds > 1) {
     content.panels.push_back(
         {.id = "runs",
-         .caption = "First breaks, and the worst of any load step; the largest fall is one of the wall tension.",
+         .caption = std::string("First breaks, and the worst of any load step; the largest fall is one of the wall "
+                                "tension.") +
+                    (seeds > 2   ? " Means over seeds; 95 % confidence intervals in brackets."
+                     : seeds > 1 ? " Means over seeds."
+                                 : ""),
          .alt = "",
          .content = table,
          .per_row = 1});
