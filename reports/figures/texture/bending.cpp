@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include "engine/analysis/fits.h"
@@ -16,6 +17,23 @@ namespace {
 
 constexpr int picture_width = 900;
 constexpr double least_diameter = 76e-3;  // m, of a half disc (Kuruppu et al. 2014), beside ten grains
+
+// K_Ic of four granites along planes of several directions, MPa√m (Nasseri & Mohanty 2008, abstract). None is Lac du Bonnet's.
+constexpr double least_toughness = 0.71, largest_toughness = 1.89;
+
+/// Beside the published range. `toughness`: of one geometry each.
+void compare_toughness(FigureContent& content, const std::vector<analysis::Estimate>& toughness) {
+  content.statement =
+      fmt::format("Granite has a fracture toughness K_Ic of {:g} to {:g} MPa√m (four granites, notched discs).",
+                  least_toughness, largest_toughness);
+  std::optional<Agreement> all;
+  for (const analysis::Estimate& one : toughness) {
+    if (!std::isfinite(one.value)) continue;
+    const Agreement its = agreement_within(one, least_toughness, largest_toughness);
+    if (!all || its == Agreement::disagrees || (its == Agreement::undecided && *all == Agreement::agrees)) all = its;
+  }
+  content.agreement = all;
+}
 
 /// What bends: where it bears, its notch, and the area that turns its stress into the load.
 struct Bent {
@@ -162,6 +180,7 @@ FigureContent bending_test(const StudyResult& study) {
       {"Bar", "Specimens", "Modulus of rupture (MPa)", "K_Ic (MPa√m)", "Notch opening at the largest load (µm)"}, {}};
   const bool notched = std::ranges::any_of(cases, [](const SeriesCase& item) { return item.value > 0; });
   std::vector<std::string> said;
+  std::vector<analysis::Estimate> toughnesses;
   for (const SeriesCase& item : cases) {
     content.panels.push_back(cracks_panel(study, item, {2 * depth, item.value * depth, area}, "bar", notched));
     content.panels.back().per_row = std::min(2, static_cast<int>(cases.size()));
@@ -169,11 +188,13 @@ FigureContent bending_test(const StudyResult& study) {
                           cell(item, quantity::fracture_toughness), cell(item, quantity::mouth_opening)});
     const analysis::Estimate rupture = mean_over(item, quantity::modulus_of_rupture),
                              toughness = mean_over(item, quantity::fracture_toughness);
+    toughnesses.push_back(toughness);
     if (std::isfinite(rupture.value))
       said.push_back("the modulus of rupture is " + said_of(item, rupture, "MPa") + " without a notch");
     if (std::isfinite(toughness.value))
       said.push_back("with a " + item.label + ", K_Ic by ASTM E399 is " + said_of(item, toughness, "MPa√m"));
   }
+  if (notched) compare_toughness(content, toughnesses);
   add_loads(content, cases, area, "the depth W");
   content.panels.push_back(table_panel(cases, std::move(table)));
   if (!said.empty())
@@ -202,6 +223,7 @@ FigureContent half_disc_test(const StudyResult& study) {
   add_loads(content, cases, area, "the radius R");
   content.panels.push_back(table_panel(cases, std::move(table)));
   const analysis::Estimate toughness = mean_over(cases.front(), quantity::fracture_toughness);
+  compare_toughness(content, {toughness});
   if (std::isfinite(toughness.value)) {
     content.finding = fmt::format("K_Ic by the ISRM suggested method (Kuruppu et al. 2014) is {}.",
                                   said_of(cases.front(), toughness, "MPa√m"));

@@ -207,13 +207,6 @@ render::Chart ratios_chart(const StudyResult& study, const std::vector<SeriesCas
   return chart;
 }
 
-// Of direct over Brazilian strength with the published range.
-Agreement agreement_of(const analysis::Estimate& ratio) {
-  if (!ratio.has_interval()) return Agreement::undecided;
-  if (ratio.low >= lowest && ratio.high <= highest) return Agreement::agrees;
-  return ratio.high < lowest || ratio.low > highest ? Agreement::disagrees : Agreement::undecided;
-}
-
 Agreement of_all(const std::vector<Agreement>& verdicts) {
   const auto any = [&](Agreement verdict) { return std::ranges::find(verdicts, verdict) != verdicts.end(); };
   if (any(Agreement::disagrees)) return Agreement::disagrees;
@@ -320,7 +313,7 @@ FigureContent brazilian_strengths(const StudyResult& study) {
                           std::isfinite(ratio.value) ? estimate_text(ratio, 2, true) : "–"});
     ratios.push_back(ratio);
     if (!std::isfinite(ratio.value)) continue;
-    verdicts.push_back(agreement_of(ratio));
+    verdicts.push_back(agreement_within(ratio, lowest, highest));
     said.push_back((ratio.has_interval() ? estimate_text(ratio, 2) : number(ratio.value, 2)) + " with " + item.label);
   }
   content.panels.push_back({.id = "strengths",

@@ -448,6 +448,12 @@ Panel cracks_at_end(const StudyResult& study, const SeriesCase& item, std::strin
           .content = std::move(picture)};
 }
 
+Agreement agreement_within(const analysis::Estimate& mean, double low, double high) {
+  if (!mean.has_interval()) return Agreement::undecided;
+  if (mean.low >= low && mean.high <= high) return Agreement::agrees;
+  return mean.high < low || mean.low > high ? Agreement::disagrees : Agreement::undecided;
+}
+
 std::string first_seed(const std::vector<SeriesCase>& cases) {
   return std::ranges::any_of(cases, [](const SeriesCase& item) { return item.repeats.size() > 1; }) ? ", first seed"
                                                                                                     : "";

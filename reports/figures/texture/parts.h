@@ -103,6 +103,8 @@ Panel cracks_at_end(const StudyResult& study, const SeriesCase& item, std::strin
                     const std::function<void(render::Scene&)>& load = {});
 /// ", first seed" of pictures and curves, where numbers beside them are of several; "" else.
 std::string first_seed(const std::vector<SeriesCase>& cases);
+/// Of a mean over specimens with a published range: undecided where it has no interval, or where that crosses an end.
+Agreement agreement_within(const analysis::Estimate& mean, double low, double high);
 /// A curve of each case from zero, its legend below.
 render::Chart load_curves(const std::vector<SeriesCase>& cases, const CurveOf& of, const std::string& x_title,
                           const std::string& y_title);
