@@ -27,7 +27,8 @@ constexpr double noise_share = 0.3;
 // The scatter is pooled with what is known of it, which counts as so many degrees of freedom. That is of larger specimens:
 // where these ones scatter more, theirs counts alone.
 constexpr int known_freedom = 4;
-constexpr int most_corrections = 3;
+// Corrections in a row that made nothing better: then what is left is noise, or cannot be had.
+constexpr int most_failures = 2;
 
 double scale_of(const Target& target) { return target.is_logarithmic() ? 1 : 0.15; }
 
@@ -37,6 +38,13 @@ std::pair<double, double> band_of(const Target& target) {
   if (number.deviation > 0) return {number.low, number.high};
   const double reach = target.is_logarithmic() ? 0.02 * number.value : 0.01;
   return {number.value - reach, number.value + reach};
+}
+
+/// How closely the laboratory knows the value, in the coordinate of the search.
+double laboratory_width(const Target& target) {
+  if (target.number.deviation > 0) return target.laboratory_deviation();
+  const auto [low, high] = band_of(target);
+  return 0.5 * (target.is_logarithmic() ? std::log(high / low) : high - low);
 }
 
 std::string deviation_words(const Target& target, double value) {
@@ -76,6 +84,7 @@ class Work {
 
  private:
   [[nodiscard]] int used() const { return trials_.tests() - tests_before_; }
+  [[nodiscard]] int left() const { return result_.subject.budget - used(); }
 
   [[nodiscard]] Values values_at(const std::vector<double>& x) const {
     Values values = given_;
@@ -187,12 +196,12 @@ class Work {
     };
     const std::size_t before = result_.path.size();
     const int each = static_cast<int>(stage.tests.size());
-    // The seed of the search can be far from the mean of others: a first round of fresh seeds tells by how much, a second one
-    // whether that has been taken out. A small budget is for the first only.
-    const int round = confirming_round();
-    const int reserve = plan_.budget >= 4 * round ? 2 * round : round;
+    // The seed of the search can be far from the mean of others: a first round of fresh seeds tells by how much, later ones
+    // whether that has been taken out. So half of the budget is theirs, and one round of it in any case.
+    const int round = static_cast<int>(confirming_tests().size()) * plan_.seeds;
+    const int reserve = std::max(result_.subject.budget / (2 * round), 1) * round;
     search::SearchOptions options;
-    options.evaluations = std::max((plan_.budget - used() - reserve) / each, 1);
+    options.evaluations = std::max((left() - reserve) / each, 1);
     options.may_measure = options.evaluations > 2 * static_cast<int>(stage.parameters.size());
     const search::Solution found = search::search(problem, evaluate, options);
     for (std::size_t t = 0; t < found.path.size(); ++t) {
@@ -268,11 +277,9 @@ class Work {
     return tests;
   }
 
-  /// Tests of one round of fresh seeds.
-  [[nodiscard]] int confirming_round() const { return plan_.seeds * static_cast<int>(confirming_tests().size()); }
-
   /// Values of every target for every fresh seed: [target][seed], of those that gave one.
   struct Fresh {
+    int seeds = 0;
     std::vector<std::vector<double>> values;
     std::vector<double> mean, deviation;  ///< in the coordinate of the search
     std::string error;
@@ -282,25 +289,26 @@ class Work {
     }
   };
 
-  Fresh fresh_at(const std::vector<double>& x, int round) {
+  Fresh fresh_at(const std::vector<double>& x, int round, int seeds) {
     const std::vector<Test> tests = confirming_tests();
     std::vector<Wish> wishes;
-    for (int s = 1; s <= plan_.seeds; ++s) {
+    for (int s = 1; s <= seeds; ++s) {
       for (const Test& test : tests)
         wishes.push_back(wish(test, study_.scenario.seed() + static_cast<std::uint64_t>(s), values_at(x)));
     }
     const std::vector<Reading> readings = trials_.run(wishes);
     Fresh fresh;
+    fresh.seeds = seeds;
     fresh.error = first_error(readings);
     for (const Reading& reading : readings) {
       for (const std::string& check : reading.broken) ++fresh.broken[check];
     }
     Step step{"fresh seeds", factors(x), {}};
-    step.seeds = plan_.seeds;
+    step.seeds = seeds;
     std::vector<std::string> words;
     for (const Target& target : result_.subject.targets) {
       std::vector<double> values, logs;
-      for (int s = 0; s < plan_.seeds; ++s) {
+      for (int s = 0; s < seeds; ++s) {
         const auto begin = readings.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(s) * tests.size());
         const double value = value_of(target, tests, {begin, begin + static_cast<std::ptrdiff_t>(tests.size())});
         if (!std::isfinite(target.to_search(value))) continue;
@@ -320,7 +328,7 @@ class Work {
     }
     step.failed = !fresh.is_whole();
     step.error = step.failed ? fresh.error : "";
-    tell("fresh seeds", round, fmt::format("{} (means of {})", reports::joined(words, ", "), plan_.seeds));
+    tell("fresh seeds", round, fmt::format("{} (means of {})", reports::joined(words, ", "), seeds));
     result_.path.push_back(std::move(step));
     return fresh;
   }
@@ -331,7 +339,7 @@ class Work {
       problem.unknowns.push_back({x_[k], std::log(moved_[k].low), std::log(moved_[k].high)});
     for (std::size_t i = 0; i < result_.subject.targets.size(); ++i) {
       const Target& target = result_.subject.targets[i];
-      const double seeds = fresh.deviation[i] / std::sqrt(plan_.seeds);
+      const double seeds = fresh.deviation[i] / std::sqrt(fresh.seeds);
       problem.targets.push_back(
           goal(target, std::max(std::hypot(target.laboratory_deviation(), seeds), 1e-3), noise_share * seeds));
     }
@@ -346,9 +354,20 @@ class Work {
     return true;
   }
 
-  /// One seed stands for all while searching. Here means over fresh ones are compared, and the rest is taken out.
+  /// Whether more seeds would tell more than the laboratory knows.
+  [[nodiscard]] bool is_told(const Fresh& fresh) const {
+    for (std::size_t i = 0; i < result_.subject.targets.size(); ++i) {
+      if (fresh.deviation[i] / std::sqrt(fresh.seeds) > 0.5 * laboratory_width(result_.subject.targets[i]))
+        return false;
+    }
+    return true;
+  }
+
+  /// One seed stands for all while searching. Here means over fresh ones are compared, and the rest is taken out. Where the
+  /// laboratory knows its values better than so few seeds can tell, more of them follow while the budget lasts.
   void confirm() {
-    Fresh now = fresh_at(x_, 1);
+    int round = 1;
+    Fresh now = fresh_at(x_, round, plan_.seeds);
     if (!now.is_whole()) {
       result_.problems.push_back(
           fmt::format("With fresh seeds some tests gave no result{}. Nothing is confirmed: look at these tests alone.",
@@ -357,23 +376,37 @@ class Work {
       return;
     }
     std::size_t best = result_.path.size() - 1;
-    const int each = confirming_round();
-    for (int round = 1; round <= most_corrections; ++round) {
+    const int tests = static_cast<int>(confirming_tests().size());
+    for (int failures = 0; failures < most_failures;) {
       const search::Problem problem = whole_problem(now);
-      if (is_close(problem, now.mean) || plan_.budget - used() < each) break;
+      if (is_close(problem, now.mean)) {
+        // As many again, and what they show must leave room for a correction over all of them.
+        if (is_told(now) || left() < 3 * now.seeds * tests) break;
+        Fresh more = fresh_at(x_, ++round, 2 * now.seeds);
+        if (!more.is_whole()) break;
+        now = std::move(more);
+        best = result_.path.size() - 1;
+        continue;
+      }
+      if (left() < now.seeds * tests) break;
       std::vector<bool> low, high;
-      const std::vector<double> next = search::step(problem, x_, now.mean, jacobian_, 0, 0.3, &low, &high);
+      const double damping = failures == 0 ? 0 : 0.1;
+      const std::vector<double> next = search::step(problem, x_, now.mean, jacobian_, damping, 0.3, &low, &high);
       if (next == x_) break;
-      const Fresh then = fresh_at(next, round + 1);
+      Fresh then = fresh_at(next, ++round, now.seeds);
       if (!then.is_whole()) break;
       search::learn(problem, x_, now.mean, next, then.mean, jacobian_);
       bounded_.clear();
       for (std::size_t k = 0; k < next.size(); ++k) {
         if (low[k] || high[k]) bounded_.push_back({k, high[k]});
       }
-      if (search::misfit(problem, then.mean) >= search::misfit(problem, now.mean)) break;
+      if (search::misfit(problem, then.mean) >= search::misfit(problem, now.mean)) {
+        ++failures;
+        continue;
+      }
+      failures = 0;
       x_ = next;
-      now = then;
+      now = std::move(then);
       best = result_.path.size() - 1;
     }
     result_.path[best].is_best = true;
@@ -383,6 +416,7 @@ class Work {
 
   void finish() {
     result_.tests = used();
+    result_.seeds = fresh_.seeds;
     result_.steps = trials_.steps() - steps_before_;
     finish_parameters();
     if (!fresh_.values.empty()) finish_targets();
@@ -394,6 +428,7 @@ class Work {
     const std::size_t n = moved_.size();
     Fresh fresh = fresh_;
     if (fresh.deviation.empty()) {
+      fresh.seeds = plan_.seeds;
       for (const Target& target : result_.subject.targets) fresh.deviation.push_back(scatter(target.number.key));
     }
     const search::Problem problem = whole_problem(fresh);
@@ -403,7 +438,7 @@ class Work {
     const search::Identified known = search::identify(weighed, undetermined);
     const Eigen::MatrixXd spread = search::covariance(weighed, known.free);
     result_.condition = known.condition;
-    const double wide = dem::analysis::student_limit(0.05, known_freedom + plan_.seeds - 1);
+    const double wide = dem::analysis::student_limit(0.05, known_freedom + fresh.seeds - 1);
     // What the last round of fresh seeds leaves to be taken out lies inside the interval as well.
     const std::vector<double> best = is_confirmed_ ? search::step(problem, x_, fresh.mean, jacobian_, 0, 0.3) : x_;
     result_.correlation = Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
@@ -446,7 +481,7 @@ class Work {
       result_.problems.push_back(fmt::format(
           "The check {} did not hold in {} of {} tests with fresh seeds: what they gave is not sure. Run the "
           "scenario with the calibrated rock to see why; most often the loading is too fast.",
-          reports::words(check), count, confirming_round()));
+          reports::words(check), count, result_.seeds * static_cast<int>(confirming_tests().size())));
     }
     if (missed.empty() || !is_confirmed_) return;
     const std::string what = fmt::format("Not met: {}.", reports::listed(missed));
@@ -460,9 +495,10 @@ class Work {
     if (!ends.empty()) {
       result_.problems.push_back(fmt::format("{} {}: widen it in calibrate.ranges, or let other parameters move.", what,
                                              reports::listed(ends)));
-    } else if (exhausted_ || plan_.budget - used() < confirming_round()) {
-      result_.problems.push_back(fmt::format(
-          "{} The budget of {} tests is used up: raise calibrate.budget; what was run is kept.", what, plan_.budget));
+    } else if (exhausted_ || left() < result_.seeds * static_cast<int>(confirming_tests().size())) {
+      result_.problems.push_back(
+          fmt::format("{} The budget of {} tests is used up: raise calibrate.budget; what was run is kept.", what,
+                      result_.subject.budget));
     } else {
       result_.problems.push_back(
           fmt::format("{} The parameters that move ({}) cannot have all of these values at once: let others move in "

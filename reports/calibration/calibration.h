@@ -53,6 +53,7 @@ struct SubjectResult {
   double condition = 0;         ///< of the derivatives at the end
   std::vector<Advice> advice;
   int tests = 0;
+  int seeds = 0;  ///< fresh ones, of the last round
   double steps = 0;
   std::vector<std::string> problems;  ///< what a person should do, a sentence each; empty: all is met
   bool is_met = false;

@@ -246,7 +246,6 @@ std::string page(const Outcome& outcome, const PageFacts& facts, const std::vect
   data.set("rock_text", facts.rock_text);
   data.set("rock_href", reports::data_uri(facts.rock_text, "x.toml"));
   data.set("command", facts.command);
-  data.set("seeds", std::to_string(facts.seeds));
   Data findings = list();
   const auto find = [&](const std::string& text, const char* state) {
     Data item;
@@ -268,7 +267,7 @@ std::string page(const Outcome& outcome, const PageFacts& facts, const std::vect
              "{}: of {} measured value{} {} within the uncertainty, {} outside, {} undecided, by means of {} fresh "
              "seeds; {} of {} tests.",
              capital(subject.title()), subject.targets.size(), subject.targets.size() == 1 ? "" : "s", met, missed,
-             undecided, facts.seeds, result.tests, facts.budget),
+             undecided, result.seeds, result.tests, subject.budget),
          result.is_met ? "good" : "bad");
     for (const std::string& problem : result.problems) find(problem, "bad");
     for (const std::string& note : subject.notes) find(note, "plain");

@@ -14,7 +14,6 @@ struct PageFacts {
   std::string rock_text;  ///< its text
   std::string command;    ///< that makes it again
   std::uint64_t seed = 1;
-  int budget = 0, seeds = 0;
   std::filesystem::path assets;
 };
 

@@ -247,7 +247,7 @@ Plan make_plan(const dem::Scenario& scenario, std::span<const dem::Measurable> m
         "below [mineral.measured] (docs/use/your-rock.md)");
   }
   Plan plan;
-  plan.budget = static_cast<int>(scenario.integer("calibrate.budget"));
+  const auto budget = static_cast<int>(scenario.integer("calibrate.budget"));
   plan.seeds = static_cast<int>(scenario.integer("calibrate.seeds"));
   const std::vector<Range> ranges = ranges_of(scenario);
   const std::vector<std::string> minerals = dem::texture::mineral_names(scenario);
@@ -264,6 +264,8 @@ Plan make_plan(const dem::Scenario& scenario, std::span<const dem::Measurable> m
   for (const std::string& owner : owners) {
     Subject subject;
     subject.mineral = owner;
+    // Boundaries have parameters of their own, and act on all targets at once: their search is longer.
+    subject.budget = owner.empty() && minerals.size() > 1 ? 2 * budget : budget;
     std::string table = "measured.";
     for (std::size_t i = 0; i < minerals.size(); ++i) {
       if (minerals[i] == owner) table = fmt::format("mineral[{}].measured.", i);

@@ -53,14 +53,14 @@ struct Subject {
   std::vector<Stage> stages;           ///< parameters by their places in `moved`
   std::vector<double> pressures;       ///< of the tests by which m is fitted, MPa; 0 is one of them
   std::vector<std::string> notes;      ///< targets that no test of this program gives
+  int budget = 40;                     ///< tests
 
   [[nodiscard]] std::string title() const { return mineral.empty() ? "the rock" : mineral; }
 };
 
 struct Plan {
   std::vector<Subject> subjects;  ///< minerals first
-  int budget = 40;                ///< tests a subject
-  int seeds = 5;                  ///< fresh ones
+  int seeds = 5;                  ///< fresh ones, to begin with
 };
 
 /// A direction whose standard deviation is above this (in logarithms: half to double at 95 %) is not determined.

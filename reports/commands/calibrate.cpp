@@ -133,8 +133,6 @@ int perform(const Arguments& arguments) {
     facts.title = rock.empty() ? "Calibration of " + study.scenario.name() : "Calibration of " + rock;
     facts.rock = places.rock.filename().string();
     facts.seed = study.scenario.seed();
-    facts.budget = plan.budget;
-    facts.seeds = plan.seeds;
     facts.assets = assets;
     facts.command = how_again(request, study.scenario, shipped_scenarios(assets), Home::clone).command;
     facts.command.replace(0, std::string("./dem-report").size(), "./dem-report calibrate");
