@@ -183,9 +183,16 @@ ValueText value_text(const ChartLayout& layout, const Bar& bar) {
 
 std::optional<Vec2> place_inside(const ChartLayout& layout, const Band& band) {
   const double width = text_width(band.label, layout.text) + 6;
-  std::optional<Vec2> best;
-  double most = 1.25 * layout.text;  // the least room
-  constexpr double tick = 8;         // px that ticks reach into the plot, with some air
+  // Where most room is, off the vertical lines if any place is.
+  std::optional<Vec2> best, crossed_best;
+  double most = 1.25 * layout.text, crossed_most = most;  // the least room
+  const auto is_crossed = [&](double from, double to) {
+    return std::ranges::any_of(layout.chart->marks, [&](const Mark& mark) {
+      const double x = layout.across(mark.x);
+      return mark.kind == Mark::Kind::vertical && x > from && x < to;
+    });
+  };
+  constexpr double tick = 8;  // px that ticks reach into the plot, with some air
   for (double left = layout.plot.left + tick; left + width <= layout.plot.right - tick; left += 4) {
     const double right = left + width;
     if (band.x.empty() || layout.across(band.x.front()) > left) continue;
@@ -204,12 +211,18 @@ std::optional<Vec2> place_inside(const ChartLayout& layout, const Band& band) {
       }
       reached = b.x >= right;
     }
-    if (reached && bottom - top > most) {
+    if (!reached) continue;
+    const Vec2 middle{left + width / 2, (top + bottom) / 2};
+    if (bottom - top > most && !is_crossed(left, right)) {
       most = bottom - top;
-      best = Vec2{left + width / 2, (top + bottom) / 2};
+      best = middle;
+    }
+    if (bottom - top > crossed_most) {
+      crossed_most = bottom - top;
+      crossed_best = middle;
     }
   }
-  return best;
+  return best ? best : crossed_best;
 }
 
 std::vector<Bar> bars_of(const ChartLayout& layout) {

@@ -23,9 +23,10 @@ constexpr double least_toughness = 0.71, largest_toughness = 1.89;
 
 /// Beside the published range. `toughness`: of one geometry each.
 void compare_toughness(FigureContent& content, const std::vector<analysis::Estimate>& toughness) {
-  content.statement =
-      fmt::format("Granite has a fracture toughness K_Ic of {:g} to {:g} MPa√m (four granites, notched discs).",
-                  least_toughness, largest_toughness);
+  content.statement = fmt::format(
+      "Granite has a fracture toughness K_Ic of {:g} to {:g} MPa√m (four granites, none Lac du Bonnet’s, as notched "
+      "discs).",
+      least_toughness, largest_toughness);
   std::optional<Agreement> all;
   for (const analysis::Estimate& one : toughness) {
     if (!std::isfinite(one.value)) continue;
