@@ -153,7 +153,9 @@ std::string mean_text(const dem::Quantity& quantity, const analysis::Spread& spr
 std::string result_text(const Repeats& column, std::string_view id, const dem::Quantity& quantity, bool powers) {
   const analysis::Spread spread = analysis::spread(values_of(column, id));
   if (spread.count == 0) return "–";
-  if (spread.deviation == 0 || !std::isfinite(spread.deviation)) return shown_result(quantity, spread.mean, powers);
+  // What is left of equal values after rounding is no scatter.
+  const bool equal = spread.deviation <= 1e-12 * std::abs(spread.mean);
+  if (equal || !std::isfinite(spread.deviation)) return shown_result(quantity, spread.mean, powers);
   return mean_text(quantity, spread, powers);
 }
 
