@@ -7,7 +7,7 @@ namespace dem::analysis {
 namespace {
 
 std::string label_of(const std::string& column) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 17> known{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 18> known{
       {{"work", "Work of the boundary"},
        {"elastic_normal", "Elastic energy, normal springs"},
        {"elastic_shear", "Elastic energy, shear springs"},
@@ -20,6 +20,7 @@ std::string label_of(const std::string& column) {
        {"jumped", "Released by jumps"},
        {"elastic", "Elastic"},
        {"kinetic", "Kinetic"},
+       {"gravity", "Potential energy of the weight"},
        {"damping", "Damping"},
        {"friction", "Friction"},
        {"bond_tension", "Bonds broken in tension"},
