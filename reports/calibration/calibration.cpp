@@ -6,8 +6,9 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
-#include "engine/analysis/statistics.h"
+#include "engine/calibration/mean_response.h"
 #include "engine/scenario/scenario.h"
 #include "reports/calibration/rock_file.h"
 #include "reports/calibration/sensitivities.h"
@@ -20,15 +21,20 @@ namespace search = dem::calibration;
 using dem::analysis::Estimate;
 using reports::Verdict;
 
-// A misfit is small enough at this share of its standard deviation: less would follow the noise of the seeds.
-constexpr double close_share = 0.4;
+// A misfit of means is small enough at this share of its standard deviation: less would follow the noise of the seeds. One seed
+// stands apart from the mean by its whole deviation, which fresh seeds take out afterwards.
+constexpr double close_share = 0.4, close_share_of_one_seed = 1.0;
 // What a step changes of a result beside the smooth part, over the scatter between seeds: the cracks run otherwise.
 constexpr double noise_share = 0.3;
-// The scatter is pooled with what is known of it, which counts as so many degrees of freedom. That is of larger specimens:
-// where these ones scatter more, theirs counts alone.
+// The scatter is pooled with what is known of it, which counts as so many degrees of freedom.
 constexpr int known_freedom = 4;
-// Corrections in a row that made nothing better: then what is left is noise, or cannot be had.
-constexpr int most_failures = 2;
+// Fresh seeds at each step towards the means: few at many places tell more than many at few, as each step is better than the
+// one before.
+constexpr int seeds_of_a_step = 2;
+// Rounds of all fresh seeds at the end, at most.
+constexpr int most_rounds = 3;
+// Longest step towards the means, in logarithms.
+constexpr double farthest = 0.3;
 
 double scale_of(const Target& target) { return target.is_logarithmic() ? 1 : 0.15; }
 
@@ -133,8 +139,8 @@ class Work {
     return {};
   }
 
-  [[nodiscard]] search::Target goal(const Target& target, double deviation, double noise) const {
-    return {target.to_search(target.number.value), deviation, close_share * deviation, noise, scale_of(target)};
+  [[nodiscard]] static search::Target goal(const Target& target, double deviation, double close, double noise) {
+    return {target.to_search(target.number.value), deviation, close * deviation, noise, scale_of(target)};
   }
 
   void tell(const std::string& stage, int number, const std::string& words) const {
@@ -150,8 +156,7 @@ class Work {
     for (const std::size_t i : stage.targets) {
       const Target& target = result_.subject.targets[i];
       const double noise = (elastic ? 0.1 : noise_share) * scatter(target.number.key);
-      // One seed stands apart by its scatter: coming closer than that would spend tests that the fresh seeds need.
-      problem.targets.push_back(goal(target, expected_deviation(target, 1), noise));
+      problem.targets.push_back(goal(target, expected_deviation(target, 1), close_share_of_one_seed, noise));
     }
     const std::vector<Eigen::Index> rows(stage.targets.begin(), stage.targets.end()),
         columns(stage.parameters.begin(), stage.parameters.end());
@@ -196,8 +201,8 @@ class Work {
     };
     const std::size_t before = result_.path.size();
     const int each = static_cast<int>(stage.tests.size());
-    // The seed of the search can be far from the mean of others: a first round of fresh seeds tells by how much, later ones
-    // whether that has been taken out. So half of the budget is theirs, and one round of it in any case.
+    // The seed of the search can be far from the mean of others. So half of the budget is for fresh ones, and one round of
+    // them in any case.
     const int round = static_cast<int>(confirming_tests().size()) * plan_.seeds;
     const int reserve = std::max(result_.subject.budget / (2 * round), 1) * round;
     search::SearchOptions options;
@@ -210,6 +215,13 @@ class Work {
     }
     x_ = at_stage(found.point);
     jacobian_(rows, columns) = found.jacobian;
+    // The seed of the search is one specimen more for the means, as far as whole tests were run.
+    samples_.clear();
+    if (!elastic && found.answer) {
+      samples_.push_back({x_, std::vector<std::vector<double>>(result_.subject.targets.size())});
+      for (std::size_t t = 0; t < stage.targets.size(); ++t)
+        samples_.back().values[stage.targets[t]] = {(*found.answer)[t]};
+    }
     // Only differences tell that a parameter moves nothing: what a search learns on its way holds the noise of the cracks.
     if (std::ranges::any_of(found.path, [](const auto& trial) { return trial.is_difference; }))
       keep_what_moves_nothing(stage, problem);
@@ -277,170 +289,198 @@ class Work {
     return tests;
   }
 
-  /// Values of every target for every fresh seed: [target][seed], of those that gave one.
-  struct Fresh {
-    int seeds = 0;
-    std::vector<std::vector<double>> values;
-    std::vector<double> mean, deviation;  ///< in the coordinate of the search
-    std::string error;
-    std::map<std::string, int> broken;  ///< checks that did not hold, and in how many tests
-    [[nodiscard]] bool is_whole() const {
-      return std::ranges::all_of(values, [](const auto& of) { return of.size() >= 2; });
-    }
-  };
-
-  Fresh fresh_at(const std::vector<double>& x, int round, int seeds) {
+  /// Tests specimens that nothing has seen, with the parameters as they are now.
+  void test_fresh(int round, int seeds) {
     const std::vector<Test> tests = confirming_tests();
     std::vector<Wish> wishes;
-    for (int s = 1; s <= seeds; ++s) {
-      for (const Test& test : tests)
-        wishes.push_back(wish(test, study_.scenario.seed() + static_cast<std::uint64_t>(s), values_at(x)));
+    for (int s = 0; s < seeds; ++s) {
+      const std::uint64_t seed = study_.scenario.seed() + static_cast<std::uint64_t>(++fresh_seeds_);
+      for (const Test& test : tests) wishes.push_back(wish(test, seed, values_at(x_)));
     }
     const std::vector<Reading> readings = trials_.run(wishes);
-    Fresh fresh;
-    fresh.seeds = seeds;
-    fresh.error = first_error(readings);
+    if (error_.empty()) error_ = first_error(readings);
     for (const Reading& reading : readings) {
-      for (const std::string& check : reading.broken) ++fresh.broken[check];
+      for (const std::string& check : reading.broken) ++broken_[check];
     }
-    Step step{"fresh seeds", factors(x), {}};
+    search::Sample sample{x_, {}};
+    Step step{"fresh seeds", factors(x_), {}};
     step.seeds = seeds;
     std::vector<std::string> words;
     for (const Target& target : result_.subject.targets) {
-      std::vector<double> values, logs;
+      std::vector<double> values;
       for (int s = 0; s < seeds; ++s) {
         const auto begin = readings.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(s) * tests.size());
-        const double value = value_of(target, tests, {begin, begin + static_cast<std::ptrdiff_t>(tests.size())});
-        if (!std::isfinite(target.to_search(value))) continue;
-        values.push_back(value);
-        logs.push_back(target.to_search(value));
+        const double value =
+            target.to_search(value_of(target, tests, {begin, begin + static_cast<std::ptrdiff_t>(tests.size())}));
+        if (std::isfinite(value)) values.push_back(value);
       }
-      const dem::analysis::Spread spread = dem::analysis::spread(logs), plain = dem::analysis::spread(values);
-      const auto freedom = static_cast<double>(std::max<std::size_t>(values.size(), 1) - 1);
-      const double known = scatter(target.number.key);
-      const double pooled = std::sqrt((known_freedom * known * known + freedom * spread.deviation * spread.deviation) /
-                                      (known_freedom + freedom));
-      fresh.deviation.push_back(std::max(pooled, spread.deviation));
-      fresh.mean.push_back(values.empty() ? std::nan("") : target.to_search(plain.mean));
-      step.values.push_back(plain.mean);
-      words.push_back(deviation_words(target, plain.mean));
-      fresh.values.push_back(std::move(values));
+      step.values.push_back(target.from_search(dem::analysis::mean_of(values).value));
+      step.failed = step.failed || values.empty();
+      words.push_back(deviation_words(target, step.values.back()));
+      sample.values.push_back(std::move(values));
     }
-    step.failed = !fresh.is_whole();
-    step.error = step.failed ? fresh.error : "";
+    step.error = step.failed ? first_error(readings) : "";
     tell("fresh seeds", round, fmt::format("{} (means of {})", reports::joined(words, ", "), seeds));
     result_.path.push_back(std::move(step));
-    return fresh;
+    samples_.push_back(std::move(sample));
   }
 
-  [[nodiscard]] search::Problem whole_problem(const Fresh& fresh) const {
+  /// Means over all specimens that were tested, with the parameters as they are now.
+  [[nodiscard]] search::Expected expected() const {
+    search::Prior prior;
+    prior.jacobian = jacobian_;
+    prior.freedom = known_freedom;
+    for (const Target& target : result_.subject.targets) {
+      prior.scale.push_back(scale_of(target));
+      prior.scatter.push_back(scatter(target.number.key));
+    }
+    return search::expected_at(x_, samples_, prior);
+  }
+
+  [[nodiscard]] search::Problem whole_problem(const search::Expected& now) const {
     search::Problem problem;
-    for (std::size_t k = 0; k < moved_.size(); ++k)
-      problem.unknowns.push_back({x_[k], std::log(moved_[k].low), std::log(moved_[k].high)});
+    for (std::size_t k = 0; k < moved_.size(); ++k) {
+      if (lost_[k]) {
+        problem.unknowns.push_back({x_[k], x_[k], x_[k]});
+      } else {
+        problem.unknowns.push_back({x_[k], std::log(moved_[k].low), std::log(moved_[k].high)});
+      }
+    }
     for (std::size_t i = 0; i < result_.subject.targets.size(); ++i) {
       const Target& target = result_.subject.targets[i];
-      const double seeds = fresh.deviation[i] / std::sqrt(fresh.seeds);
-      problem.targets.push_back(
-          goal(target, std::max(std::hypot(target.laboratory_deviation(), seeds), 1e-3), noise_share * seeds));
+      const double deviation = std::hypot(target.laboratory_deviation(), now.deviation[i]);
+      problem.targets.push_back(goal(target, std::max(deviation, 1e-3), close_share, 0));
     }
-    problem.jacobian = jacobian_;
     return problem;
   }
 
-  [[nodiscard]] static bool is_close(const search::Problem& problem, const std::vector<double>& mean) {
-    for (std::size_t i = 0; i < mean.size(); ++i) {
-      if (std::abs(mean[i] - problem.targets[i].value) > problem.targets[i].close) return false;
+  /// Whether more seeds would change nothing: each mean is known as well as the laboratory knows its value, or is clearly off.
+  [[nodiscard]] bool is_told(const search::Expected& now) const {
+    for (std::size_t i = 0; i < now.mean.size(); ++i) {
+      const Target& target = result_.subject.targets[i];
+      const double off = std::abs(now.mean[i] - target.to_search(target.number.value)),
+                   width = laboratory_width(target);
+      if (now.deviation[i] > 0.5 * width && off < width + 3 * now.deviation[i]) return false;
     }
     return true;
   }
 
-  /// Whether more seeds would tell more than the laboratory knows.
-  [[nodiscard]] bool is_told(const Fresh& fresh) const {
-    for (std::size_t i = 0; i < result_.subject.targets.size(); ++i) {
-      if (fresh.deviation[i] / std::sqrt(fresh.seeds) > 0.5 * laboratory_width(result_.subject.targets[i]))
-        return false;
+  /// A step to where the means should meet the targets, between the bounds.
+  struct Correction {
+    std::vector<double> next;
+    std::vector<bool> low, high;
+    Eigen::VectorXd results;  ///< what it should change
+  };
+
+  [[nodiscard]] static bool has_means(const search::Expected& now) {
+    return std::ranges::all_of(now.mean, [](double mean) { return std::isfinite(mean); });
+  }
+
+  [[nodiscard]] Correction correction(const search::Expected& now) const {
+    Correction found;
+    found.next = search::step(whole_problem(now), x_, now.mean, now.jacobian, 0, farthest, &found.low, &found.high);
+    Eigen::VectorXd change(static_cast<Eigen::Index>(x_.size()));
+    for (std::size_t k = 0; k < x_.size(); ++k) change[static_cast<Eigen::Index>(k)] = found.next[k] - x_[k];
+    found.results = now.jacobian * change;
+    return found;
+  }
+
+  void take(const Correction& correction) {
+    x_ = correction.next;
+    bounded_.clear();
+    for (std::size_t k = 0; k < x_.size(); ++k) {
+      if (!lost_[k] && (correction.low[k] || correction.high[k])) bounded_.push_back({k, correction.high[k]});
+    }
+  }
+
+  /// Whether a correction changes so little that it would follow the noise.
+  [[nodiscard]] bool is_small(const Correction& correction, const search::Expected& now) const {
+    const search::Problem problem = whole_problem(now);
+    for (std::size_t i = 0; i < now.mean.size(); ++i) {
+      if (std::abs(correction.results[static_cast<Eigen::Index>(i)]) > problem.targets[i].close) return false;
     }
     return true;
   }
 
-  /// One seed stands for all while searching. Here means over fresh ones are compared, and the rest is taken out. Where the
-  /// laboratory knows its values better than so few seeds can tell, more of them follow while the budget lasts.
+  /// Whether a correction need not be tested again: no result changes by more than the seeds tell.
+  [[nodiscard]] static bool is_within_scatter(const Correction& correction, const search::Expected& now) {
+    for (std::size_t i = 0; i < now.mean.size(); ++i) {
+      if (std::abs(correction.results[static_cast<Eigen::Index>(i)]) > 2 * now.deviation[i]) return false;
+    }
+    return true;
+  }
+
+  /// One seed stands for all while searching. Now means over fresh ones are brought to the targets: two more at each step, whose
+  /// results add up, until they tell as much as the laboratory knows or the budget is left for the last round alone.
   void confirm() {
-    int round = 1;
-    Fresh now = fresh_at(x_, round, plan_.seeds);
-    if (!now.is_whole()) {
-      result_.problems.push_back(
-          fmt::format("With fresh seeds some tests gave no result{}. Nothing is confirmed: look at these tests alone.",
-                      now.error.empty() ? std::string() : ": " + now.error));
-      fresh_ = now;
-      return;
-    }
-    std::size_t best = result_.path.size() - 1;
     const int tests = static_cast<int>(confirming_tests().size());
-    for (int failures = 0; failures < most_failures;) {
-      const search::Problem problem = whole_problem(now);
-      if (is_close(problem, now.mean)) {
-        // As many again, and what they show must leave room for a correction over all of them.
-        if (is_told(now) || left() < 3 * now.seeds * tests) break;
-        Fresh more = fresh_at(x_, ++round, 2 * now.seeds);
-        if (!more.is_whole()) break;
-        now = std::move(more);
-        best = result_.path.size() - 1;
-        continue;
+    search::Expected now;
+    if (!samples_.empty()) now = expected();
+    bool thorough = false;
+    for (int round = 1, last_rounds = 0;; ++round) {
+      bool settled = false;
+      if (!samples_.empty() && has_means(now)) {
+        const Correction next = correction(now);
+        settled = is_told(now) && is_small(next, now);
+        if (thorough && (settled || left() < plan_.seeds * tests || last_rounds == most_rounds)) break;
+        if (!settled) take(next);
       }
-      if (left() < now.seeds * tests) break;
-      std::vector<bool> low, high;
-      const double damping = failures == 0 ? 0 : 0.1;
-      const std::vector<double> next = search::step(problem, x_, now.mean, jacobian_, damping, 0.3, &low, &high);
-      if (next == x_) break;
-      Fresh then = fresh_at(next, ++round, now.seeds);
-      if (!then.is_whole()) break;
-      search::learn(problem, x_, now.mean, next, then.mean, jacobian_);
-      bounded_.clear();
-      for (std::size_t k = 0; k < next.size(); ++k) {
-        if (low[k] || high[k]) bounded_.push_back({k, high[k]});
+      thorough = settled || left() < (seeds_of_a_step + plan_.seeds) * tests;
+      last_rounds += thorough;
+      test_fresh(round, thorough ? plan_.seeds : seeds_of_a_step);
+      now = expected();
+      if (std::ranges::any_of(now.specimens, [](int count) { return count < 2; })) {
+        result_.problems.push_back(fmt::format(
+            "With fresh seeds some tests gave no result{}. Nothing is confirmed: look at these tests alone.",
+            error_.empty() ? std::string() : ": " + error_));
+        return;
       }
-      if (search::misfit(problem, then.mean) >= search::misfit(problem, now.mean)) {
-        ++failures;
-        continue;
-      }
-      failures = 0;
-      x_ = next;
-      now = std::move(then);
-      best = result_.path.size() - 1;
     }
-    result_.path[best].is_best = true;
-    fresh_ = now;
-    is_confirmed_ = true;
+    if (const Correction last = correction(now); !is_small(last, now) && is_within_scatter(last, now)) {
+      take(last);
+      now = expected();
+    }
+    Step end{"mean", factors(x_), {}};
+    end.seeds = *std::ranges::min_element(now.specimens);
+    end.is_best = true;
+    for (std::size_t i = 0; i < now.mean.size(); ++i)
+      end.values.push_back(result_.subject.targets[i].from_search(now.mean[i]));
+    result_.seeds = end.seeds;
+    result_.path.push_back(std::move(end));
+    jacobian_ = now.jacobian;
+    means_ = std::move(now);
   }
 
   void finish() {
     result_.tests = used();
-    result_.seeds = fresh_.seeds;
     result_.steps = trials_.steps() - steps_before_;
     finish_parameters();
-    if (!fresh_.values.empty()) finish_targets();
+    finish_targets();
     find_advice();
     result_.is_met = result_.problems.empty();
   }
 
   void finish_parameters() {
     const std::size_t n = moved_.size();
-    Fresh fresh = fresh_;
-    if (fresh.deviation.empty()) {
-      fresh.seeds = plan_.seeds;
-      for (const Target& target : result_.subject.targets) fresh.deviation.push_back(scatter(target.number.key));
+    search::Expected now;
+    if (means_) {
+      now = *means_;
+    } else {
+      for (const Target& target : result_.subject.targets) {
+        now.deviation.push_back(scatter(target.number.key));
+        now.freedom.push_back(known_freedom);
+      }
     }
-    const search::Problem problem = whole_problem(fresh);
+    const search::Problem problem = whole_problem(now);
     Eigen::MatrixXd weighed = jacobian_;
     for (std::size_t i = 0; i < problem.targets.size(); ++i)
       weighed.row(static_cast<Eigen::Index>(i)) /= problem.targets[i].deviation;
     const search::Identified known = search::identify(weighed, undetermined);
     const Eigen::MatrixXd spread = search::covariance(weighed, known.free);
     result_.condition = known.condition;
-    const double wide = dem::analysis::student_limit(0.05, known_freedom + fresh.seeds - 1);
-    // What the last round of fresh seeds leaves to be taken out lies inside the interval as well.
-    const std::vector<double> best = is_confirmed_ ? search::step(problem, x_, fresh.mean, jacobian_, 0, 0.3) : x_;
+    const double wide = dem::analysis::student_limit(0.05, *std::ranges::min_element(now.freedom));
+    // What is left to be taken out lies inside the interval as well.
+    const std::vector<double> best = means_ ? search::step(problem, x_, now.mean, jacobian_, 0, farthest) : x_;
     result_.correlation = Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
     for (std::size_t k = 0; k < n; ++k) {
       const auto at = static_cast<Eigen::Index>(k);
@@ -467,23 +507,25 @@ class Work {
 
   void finish_targets() {
     std::vector<std::string> missed;
-    for (std::size_t i = 0; i < result_.subject.targets.size(); ++i) {
+    for (std::size_t i = 0; means_ && i < result_.subject.targets.size(); ++i) {
       const Target& target = result_.subject.targets[i];
+      const double mean = means_->mean[i],
+                   half = dem::analysis::student_limit(0.05, means_->freedom[i]) * means_->deviation[i];
       TargetResult one;
-      one.ours = dem::analysis::mean_of(fresh_.values[i]);
-      one.deviation = dem::analysis::spread(fresh_.values[i]).deviation;
+      one.ours = {target.from_search(mean), target.from_search(mean - half), target.from_search(mean + half)};
+      one.deviation = means_->scatter[i] * (target.is_logarithmic() ? one.ours.value : 1);
       const auto [low, high] = band_of(target);
-      if (!fresh_.values[i].empty()) one.verdict = reports::judge_value(one.ours.value, one.ours, {low, high});
+      one.verdict = reports::judge_value(one.ours.value, one.ours, {low, high});
       if (one.verdict == Verdict::missed) missed.push_back(deviation_words(target, one.ours.value));
       result_.targets.push_back(one);
     }
-    for (const auto& [check, count] : fresh_.broken) {
+    for (const auto& [check, count] : broken_) {
       result_.problems.push_back(fmt::format(
           "The check {} did not hold in {} of {} tests with fresh seeds: what they gave is not sure. Run the "
           "scenario with the calibrated rock to see why; most often the loading is too fast.",
-          reports::words(check), count, result_.seeds * static_cast<int>(confirming_tests().size())));
+          reports::words(check), count, fresh_seeds_ * static_cast<int>(confirming_tests().size())));
     }
-    if (missed.empty() || !is_confirmed_) return;
+    if (missed.empty()) return;
     const std::string what = fmt::format("Not met: {}.", reports::listed(missed));
     std::vector<std::string> ends;
     for (const ParameterResult& one : result_.parameters) {
@@ -495,7 +537,7 @@ class Work {
     if (!ends.empty()) {
       result_.problems.push_back(fmt::format("{} {}: widen it in calibrate.ranges, or let other parameters move.", what,
                                              reports::listed(ends)));
-    } else if (exhausted_ || left() < result_.seeds * static_cast<int>(confirming_tests().size())) {
+    } else if (exhausted_ || left() < plan_.seeds * static_cast<int>(confirming_tests().size())) {
       result_.problems.push_back(
           fmt::format("{} The budget of {} tests is used up: raise calibrate.budget; what was run is kept.", what,
                       result_.subject.budget));
@@ -565,9 +607,13 @@ class Work {
   std::vector<double> x_;  ///< logarithms of factors
   Eigen::MatrixXd jacobian_;
   std::vector<std::pair<std::size_t, bool>> bounded_;
-  std::vector<bool> lost_;  ///< parameters to which the tests did not react
-  Fresh fresh_;
-  bool exhausted_ = false, is_confirmed_ = false;
+  std::vector<bool> lost_;                 ///< parameters to which the tests did not react
+  std::vector<search::Sample> samples_;    ///< whole tests, by which the means are known
+  int fresh_seeds_ = 0;                    ///< that were tested
+  std::string error_;                      ///< the first of them that failed
+  std::map<std::string, int> broken_;      ///< checks that did not hold with them, and in how many tests
+  std::optional<search::Expected> means_;  ///< at the end; none: not confirmed
+  bool exhausted_ = false;
 };
 
 }  // namespace

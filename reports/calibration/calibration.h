@@ -13,7 +13,7 @@ namespace calibrate {
 
 /// A place of the search: factors on the parameters that move, and what came out beside the targets.
 struct Step {
-  std::string stage;
+  std::string stage;            ///< of the search; "fresh seeds"; "mean", at the end, of all specimens
   std::vector<double> factors;  ///< of Subject::moved; those not free in the stage as they were
   std::vector<double> values;   ///< of every target, in its unit; NaN: not measured there, or the test failed
   bool is_best = false, is_difference = false, failed = false;
@@ -31,8 +31,8 @@ struct ParameterResult {
 };
 
 struct TargetResult {
-  dem::analysis::Estimate ours;  ///< over fresh seeds
-  double deviation = 0;          ///< between seeds, in the coordinate of the search
+  dem::analysis::Estimate ours;  ///< mean over specimens
+  double deviation = 0;          ///< between specimens, in its unit
   reports::Verdict verdict = reports::Verdict::not_computed;
 };
 
@@ -53,7 +53,7 @@ struct SubjectResult {
   double condition = 0;         ///< of the derivatives at the end
   std::vector<Advice> advice;
   int tests = 0;
-  int seeds = 0;  ///< fresh ones, of the last round
+  int seeds = 0;  ///< specimens that the means are of
   double steps = 0;
   std::vector<std::string> problems;  ///< what a person should do, a sentence each; empty: all is met
   bool is_met = false;

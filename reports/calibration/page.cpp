@@ -173,12 +173,15 @@ Data path_data(const SubjectResult& result) {
       texts.push_back(std::isfinite(step.values[i]) ? number(step.values[i], 4) : "–");
     Data row;
     row.set("trial", std::to_string(++trial));
-    row.set("stage", step.seeds > 1 ? fmt::format("{} fresh seeds", step.seeds) : step.stage);
+    row.set("stage", step.stage == "mean" ? fmt::format("mean of {} specimens", step.seeds)
+                     : step.seeds > 1     ? fmt::format("{} fresh seeds", step.seeds)
+                                          : step.stage);
     row.set("cells", cells(texts));
-    row.set("note", step.failed          ? "failed"
-                    : step.is_difference ? "for the derivatives"
-                    : step.is_best       ? "best so far"
-                                         : "");
+    row.set("note", step.failed            ? "failed"
+                    : step.is_difference   ? "for the derivatives"
+                    : step.stage == "mean" ? "the end"
+                    : step.is_best         ? "best so far"
+                                           : "");
     rows.push_back(row);
   }
   return rows;
@@ -263,11 +266,10 @@ std::string page(const Outcome& outcome, const PageFacts& facts, const std::vect
       missed += one.verdict == reports::Verdict::missed;
       undecided += one.verdict == reports::Verdict::undecided;
     }
-    find(fmt::format(
-             "{}: of {} measured value{} {} within the uncertainty, {} outside, {} undecided, by means of {} fresh "
-             "seeds; {} of {} tests.",
-             capital(subject.title()), subject.targets.size(), subject.targets.size() == 1 ? "" : "s", met, missed,
-             undecided, result.seeds, result.tests, subject.budget),
+    find(fmt::format("{}: of {} measured value{} {} within the uncertainty, {} outside, {} undecided, by means over {} "
+                     "specimens; {} of {} tests.",
+                     capital(subject.title()), subject.targets.size(), subject.targets.size() == 1 ? "" : "s", met,
+                     missed, undecided, result.seeds, result.tests, subject.budget),
          result.is_met ? "good" : "bad");
     for (const std::string& problem : result.problems) find(problem, "bad");
     for (const std::string& note : subject.notes) find(note, "plain");

@@ -7,6 +7,7 @@
 
 #include "engine/calibration/identify.h"
 #include "engine/calibration/least_squares.h"
+#include "engine/calibration/mean_response.h"
 
 namespace {
 
@@ -211,4 +212,82 @@ TEST_CASE("stated intervals of 95 % hold the truth in 95 of 100 noisy data") {
   }
   CHECK(inside > 0.92 * all);
   CHECK(inside < 0.98 * all);
+}
+
+namespace {
+
+/// Two unknowns, one target: 3 + 2 x - y, and what is known of it beforehand.
+Prior line_prior() {
+  Prior prior;
+  prior.jacobian = Eigen::MatrixXd{{1.7, -0.8}};
+  prior.scale = {1};
+  prior.scatter = {0.03};
+  return prior;
+}
+double line(const Point& x) { return 3 + 2 * x[0] - x[1]; }
+
+double standard_normal(std::mt19937& random) {
+  double sum = 0;
+  for (int i = 0; i < 12; ++i) sum += static_cast<double>(random()) / 0x1p32;
+  return sum - 6;
+}
+
+}  // namespace
+
+TEST_CASE("means of specimens at several points add up, and teach the derivatives") {
+  Prior prior = line_prior();
+  prior.curvature = 0;
+  std::vector<Sample> samples;
+  for (const Point& x : {Point{0, 0}, Point{0.2, 0}, Point{0, 0.2}, Point{0.2, 0.2}})
+    samples.push_back({x, {{line(x) - 1e-6, line(x) + 1e-6}}});
+  prior.scatter = {1e-6};
+  const Expected found = expected_at({0.1, 0.1}, samples, prior);
+  CHECK(found.mean[0] == doctest::Approx(line({0.1, 0.1})).epsilon(1e-9));
+  CHECK(found.jacobian(0, 0) == doctest::Approx(2).epsilon(1e-5));
+  CHECK(found.jacobian(0, 1) == doctest::Approx(-1).epsilon(1e-5));
+  CHECK(found.specimens[0] == 8);
+  // In the middle of the points, eight specimens are worth eight.
+  CHECK(found.deviation[0] == doctest::Approx(found.scatter[0] / std::sqrt(8)).epsilon(1e-6));
+}
+
+TEST_CASE("a specimen far away counts less than one at the point") {
+  const Prior prior = line_prior();
+  const auto deviation = [&](const Point& x) {
+    return expected_at({0, 0}, {{{0, 0}, {{3.0, 3.0}}}, {x, {{3.0, 3.0}}}}, prior).deviation[0];
+  };
+  CHECK(deviation({0, 0}) ==
+        doctest::Approx(0.03 * std::sqrt(4.0 / 6) / 2));  // 4 + 1 + 1 degrees of freedom
+  CHECK(deviation({0.1, 0}) > 1.1 * deviation({0, 0}));
+  CHECK(deviation({0.5, 0}) > deviation({0.1, 0}));
+  CHECK(deviation({0.5, 0}) <= expected_at({0, 0}, {{{0, 0}, {{3.0, 3.0}}}}, prior).deviation[0] * 1.2);
+}
+
+TEST_CASE("specimens that scatter more than is known raise the deviation; a target without a value has no mean") {
+  const Prior prior = line_prior();
+  const Expected wild = expected_at({0, 0}, {{{0, 0}, {{2.8, 2.9, 3.0, 3.1, 3.2}}}}, prior);
+  CHECK(wild.scatter[0] == doctest::Approx(std::sqrt(0.1 / 4)));
+  CHECK(wild.freedom[0] == 8);
+  const Expected none = expected_at({0, 0}, {{{0, 0}, {{}}}}, prior);
+  CHECK(std::isnan(none.mean[0]));
+  CHECK(none.specimens[0] == 0);
+}
+
+TEST_CASE("intervals of the mean hold the truth as often as they say") {
+  std::mt19937 random(7);
+  int held = 0;
+  constexpr int trials = 1000;
+  for (int trial = 0; trial < trials; ++trial) {
+    std::vector<Sample> samples;
+    Point x{0.1, -0.1};
+    for (int round = 0; round < 6; ++round) {
+      samples.push_back({x, {{}}});
+      for (int specimen = 0; specimen < 2; ++specimen)
+        samples.back().values[0].push_back(line(x) + 0.03 * standard_normal(random));
+      for (double& value : x) value *= 0.6;  // towards the place that is asked for, as a search goes
+    }
+    const Expected found = expected_at({0, 0}, samples, line_prior());
+    held += std::abs(found.mean[0] - 3) <= 2.23 * found.deviation[0];  // Student's t, 10 degrees of freedom
+  }
+  CHECK(held >= 0.93 * trials);
+  CHECK(held <= 0.985 * trials);
 }
