@@ -207,7 +207,14 @@ std::string in_unit(double si, std::string_view name) {
   if (name.empty()) return shortest(si);
   const Unit& unit = declared(name);
   const double scaled = si / unit.factor;
-  const double number = std::isfinite(scaled) ? decimal(shortest(scaled), -unit.power).value_or(scaled) : scaled;
+  double number = std::isfinite(scaled) ? decimal(shortest(scaled), -unit.power).value_or(scaled) : scaled;
+  // A factor such as that of degrees leaves a last digit: 59.99999999999999 deg is 60.
+  std::array<char, 32> digits{};
+  const auto end =
+      std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::general, 14).ptr;
+  double round = number;
+  std::from_chars(digits.data(), end, round);
+  if (to_si(round, name) == si) number = round;
   return shortest(number) + " " + std::string(name);
 }
 

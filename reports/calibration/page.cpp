@@ -118,7 +118,7 @@ Data targets_data(const SubjectResult& result) {
     row.set("deviation", !there ? ""
                          : target.is_logarithmic()
                              ? reports::with_sign(reports::percent(ours->ours.value / target.number.value - 1))
-                             : reports::with_sign(number(ours->ours.value - target.number.value, 2)));
+                             : reports::with_sign(reports::fixed(ours->ours.value - target.number.value, 3)));
     const reports::Verdict verdict = ours ? ours->verdict : reports::Verdict::not_computed;
     row.set("verdict", std::string(reports::laboratory_word(verdict)));
     row.set("verdict_class", verdict == reports::Verdict::met         ? "met"
@@ -168,18 +168,18 @@ Data path_data(const SubjectResult& result) {
   int trial = 0;
   for (const Step& step : result.path) {
     std::vector<std::string> texts;
-    for (const double factor : step.factors) texts.push_back(number(factor, 3));
+    for (const double factor : step.factors) texts.push_back(reports::fixed(factor, 3));
     for (std::size_t i = 0; i < step.values.size(); ++i)
       texts.push_back(std::isfinite(step.values[i]) ? number(step.values[i], 4) : "–");
     Data row;
     row.set("trial", std::to_string(++trial));
-    row.set("stage", step.stage == "mean" ? fmt::format("mean of {} specimens", step.seeds)
+    row.set("stage", step.stage == "mean" ? fmt::format("mean of {}", step.seeds)
                      : step.seeds > 1     ? fmt::format("{} fresh seeds", step.seeds)
                                           : step.stage);
     row.set("cells", cells(texts));
     row.set("note", step.failed            ? "failed"
-                    : step.is_difference   ? "for the derivatives"
-                    : step.stage == "mean" ? "the end"
+                    : step.is_difference   ? "derivative"
+                    : step.stage == "mean" ? "calibrated"
                     : step.is_best         ? "best so far"
                                            : "");
     rows.push_back(row);
@@ -189,7 +189,11 @@ Data path_data(const SubjectResult& result) {
 
 std::vector<std::string> path_heads(const SubjectResult& result) {
   std::vector<std::string> heads;
-  for (const std::size_t k : result.subject.moved) heads.push_back(result.subject.candidates[k].name + ", ×");
+  for (const std::size_t k : result.subject.moved) {
+    std::string name = result.subject.candidates[k].name;
+    if (const std::size_t dot = name.find('.'); dot != std::string::npos) name.insert(dot + 1, "\u200b");  // may break
+    heads.push_back(name + ", ×");
+  }
   for (const Target& target : result.subject.targets) {
     heads.push_back(target.symbol() + (target.number.unit.empty() ? "" : " (" + std::string(target.number.unit) + ")"));
   }
@@ -270,7 +274,9 @@ std::string page(const Outcome& outcome, const PageFacts& facts, const std::vect
                      "specimens; {} of {} tests.",
                      capital(subject.title()), subject.targets.size(), subject.targets.size() == 1 ? "" : "s", met,
                      missed, undecided, result.seeds, result.tests, subject.budget),
-         result.is_met ? "good" : "bad");
+         missed > 0 || result.targets.empty() ? "bad"
+         : undecided > 0                      ? "plain"
+                                              : "good");
     for (const std::string& problem : result.problems) find(problem, "bad");
     for (const std::string& note : subject.notes) find(note, "plain");
 

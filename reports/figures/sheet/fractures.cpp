@@ -135,12 +135,12 @@ double between_percent(const dem::Record& record) { return 100 * between_share(r
 
 /// Whether the breaks of all that converged lie at boundaries mainly, and a sentence on those whose do not.
 void judge_boundaries(FigureContent& content, const std::vector<const dem::Record*>& runs, const StudyResult& study) {
-  std::optional<Agreement> all;
+  std::vector<Agreement> verdicts;
   for (const dem::Record* r : runs) {
     const double chance = between_by_chance(*r);
     const analysis::Estimate share = over_seeds(study, *r, between_share);
     const Agreement one = mainly(share, chance);
-    all = !all || *all == one ? one : Agreement::undecided;
+    verdicts.push_back(one);
     if (one == Agreement::agrees) continue;
     const std::string kind = kind_of(*r, study);
     const std::string label = seeds_of(study, *r).size() == 1 ? label_of(*r, study) : kind.empty() ? "all seeds" : kind;
@@ -149,7 +149,7 @@ void judge_boundaries(FigureContent& content, const std::vector<const dem::Recor
                                    : share.value < 0.5         ? "above chance but below half"
                                                                : "above half, with an interval that is not");
   }
-  content.agreement = all;
+  if (!verdicts.empty()) content.agreement = together(verdicts);
 }
 
 /// How many springs broke in each, and how many of them at boundaries.
@@ -288,8 +288,7 @@ FigureContent rose_of_fractures(const StudyResult& study) {
       listed(said));
   content.finding += over_seeds_said(
       study, shown, [&](const dem::Record& one) { return 100 * shown_share(one); }, "the share is");
-  const bool alike = std::ranges::all_of(verdicts, [&](Agreement one) { return one == verdicts.front(); });
-  content.agreement = alike ? verdicts.front() : Agreement::undecided;
+  content.agreement = together(verdicts);
   if (content.agreement == Agreement::undecided)
     content.finding += " Agreement takes half of them or more in every run, disagreement a third or less.";
   return content;
@@ -404,9 +403,8 @@ FigureContent spacing(const StudyResult& study) {
                                                          : Agreement::undecided);
   }
   if (verdicts.empty()) return content;
-  const bool alike = std::ranges::all_of(verdicts, [&](Agreement one) { return one == verdicts.front(); });
-  content.agreement = alike ? verdicts.front() : Agreement::undecided;
-  if (alike && content.agreement == Agreement::undecided)
+  content.agreement = together(verdicts);
+  if (std::ranges::count(verdicts, Agreement::undecided) == std::ssize(verdicts))
     content.finding += " The spacing falls, but not to one thickness.";
   return content;
 }

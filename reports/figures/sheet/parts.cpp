@@ -433,6 +433,11 @@ std::string at_strain(const dem::Record& record, double strain) {
   return (record.text("test") == "growth" ? "a growth of " : "a strain of ") + number(100 * strain, 3) + " %";
 }
 
+Agreement together(std::span<const Agreement> verdicts) {
+  const bool alike = std::ranges::all_of(verdicts, [&](Agreement one) { return one == verdicts.front(); });
+  return alike ? verdicts.front() : Agreement::undecided;
+}
+
 Agreement mainly(const analysis::Estimate& share, double chance) {
   constexpr double most = 0.5;
   const double least = share.has_interval() ? share.low : share.value,

@@ -1,5 +1,6 @@
 #pragma once
 // What the figures of the spring sheet share: cases, the sheet as drawn, maps of fractures as vectors.
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -91,6 +92,8 @@ bool uniform_layer(const dem::Record& record);
 std::string at_strain(const dem::Record& record, double strain);
 /// Agrees above a half, disagrees below what chance gives; with an interval, where all of it does.
 Agreement mainly(const analysis::Estimate& share, double chance);
+/// What verdicts of several runs say together, at least one: undecided where they differ.
+Agreement together(std::span<const Agreement> verdicts);
 /// Where a broken spring lies. A sheet without a layer has the first two places only; in one with a layer they are those of
 /// springs between two particles of the layer.
 enum class CrackPlace { inside, boundary, edge, matrix };
