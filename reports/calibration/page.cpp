@@ -180,7 +180,7 @@ Data path_data(const SubjectResult& result) {
     row.set("note", step.failed            ? "failed"
                     : step.is_difference   ? "derivative"
                     : step.stage == "mean" ? "calibrated"
-                    : step.is_best         ? "best so far"
+                    : step.is_best         ? "best yet"
                                            : "");
     rows.push_back(row);
   }
