@@ -569,6 +569,7 @@ class Work {
                                 Offer{"poisson_ratio", "Poisson’s ratio", 0, 0.02},
                                 Offer{"ucs", "the uniaxial compressive strength", 0, 0.04},
                                 Offer{"tensile_strength", "the tensile strength", 0, 0.06},
+                                Offer{"brazilian_strength", "the Brazilian strength of discs", 0, 0.07},
                                 Offer{"crack_initiation", "crack initiation", 0, 0.08},
                                 Offer{"crack_damage", "crack damage", 0, 0.06},
                                 Offer{"peaks", "peaks under confining pressure, 20 MPa or more", 20, 0.04}};
