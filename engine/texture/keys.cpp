@@ -421,8 +421,9 @@ std::vector<Key> declare_calibration() {
        .high = 1000,
        .standard = "5",
        .affects = Affects::drawing,
-       .help = "fresh seeds of the last round, by which calibrate confirms what it has found; two more are tested at each "
-               "step before it"},
+       .help =
+           "fresh seeds of the last round, by which calibrate confirms what it has found; two more are tested at each "
+           "step before it"},
   };
 }
 

@@ -255,8 +255,7 @@ TEST_CASE("a specimen far away counts less than one at the point") {
   const auto deviation = [&](const Point& x) {
     return expected_at({0, 0}, {{{0, 0}, {{3.0, 3.0}}}, {x, {{3.0, 3.0}}}}, prior).deviation[0];
   };
-  CHECK(deviation({0, 0}) ==
-        doctest::Approx(0.03 * std::sqrt(4.0 / 6) / 2));  // 4 + 1 + 1 degrees of freedom
+  CHECK(deviation({0, 0}) == doctest::Approx(0.03 * std::sqrt(4.0 / 6) / 2));  // 4 + 1 + 1 degrees of freedom
   CHECK(deviation({0.1, 0}) > 1.1 * deviation({0, 0}));
   CHECK(deviation({0.5, 0}) > deviation({0.1, 0}));
   CHECK(deviation({0.5, 0}) <= expected_at({0, 0}, {{{0, 0}, {{3.0, 3.0}}}}, prior).deviation[0] * 1.2);
