@@ -414,7 +414,8 @@ std::vector<Key> declare_calibration() {
        .high = 10000,
        .standard = "40",
        .affects = Affects::drawing,
-       .help = "tests that calibrate may run for a mineral; for a rock of several minerals twice as many"},
+       .help = "tests that calibrate may run for a mineral; for a rock of several minerals twice as "
+               "many, and half as many again for each confining pressure that is tested"},
       {.path = "calibrate.seeds",
        .type = KeyType::integer,
        .low = 2,

@@ -28,6 +28,8 @@ constexpr double close_share = 0.4, close_share_of_one_seed = 1.0;
 constexpr double noise_share = 0.3;
 // The scatter is pooled with what is known of it, which counts as so many degrees of freedom.
 constexpr int known_freedom = 4;
+// A mean is told at this share of what the laboratory leaves open.
+constexpr double told_share = 0.5;
 // Fresh seeds at each step towards the means: few at many places tell more than many at few, as each step is better than the
 // one before.
 constexpr int seeds_of_a_step = 2;
@@ -289,19 +291,36 @@ class Work {
     return tests;
   }
 
+  /// The tests that a further specimen should take. Those under pressure are most of the cost: they are left out once `seeds`
+  /// specimens have taken them and what they tell is known as well as the laboratory knows it.
+  [[nodiscard]] std::vector<Test> telling_tests(const search::Expected& now) const {
+    std::vector<Test> tests = confirming_tests();
+    const auto is_open = [&](std::size_t i) {
+      const Target& target = result_.subject.targets[i];
+      return target.is_confined() &&
+             (now.specimens[i] < plan_.seeds || now.deviation[i] > told_share * laboratory_width(target));
+    };
+    for (std::size_t i = 0; i < now.deviation.size(); ++i) {
+      if (is_open(i)) return tests;
+    }
+    if (!now.deviation.empty()) std::erase_if(tests, [](const Test& test) { return test.pressure > 0; });
+    return tests;
+  }
+
   /// Tests specimens that nothing has seen, with the parameters as they are now.
-  void test_fresh(int round, int seeds) {
-    const std::vector<Test> tests = confirming_tests();
+  void test_fresh(int round, int seeds, const std::vector<Test>& tests) {
     std::vector<Wish> wishes;
     for (int s = 0; s < seeds; ++s) {
       const std::uint64_t seed = study_.scenario.seed() + static_cast<std::uint64_t>(++fresh_seeds_);
       for (const Test& test : tests) wishes.push_back(wish(test, seed, values_at(x_)));
     }
     const std::vector<Reading> readings = trials_.run(wishes);
+    fresh_tests_ += static_cast<int>(wishes.size());
     if (error_.empty()) error_ = first_error(readings);
     for (const Reading& reading : readings) {
       for (const std::string& check : reading.broken) ++broken_[check];
     }
+    const auto under_pressure = std::ranges::count_if(tests, [](const Test& test) { return test.pressure > 0; });
     search::Sample sample{x_, {}};
     Step step{"fresh seeds", factors(x_), {}};
     step.seeds = seeds;
@@ -315,8 +334,10 @@ class Work {
         if (std::isfinite(value)) values.push_back(value);
       }
       step.values.push_back(target.from_search(dem::analysis::mean_of(values).value));
-      step.failed = step.failed || values.empty();
-      words.push_back(deviation_words(target, step.values.back()));
+      if (const bool left_out = target.is_confined() && under_pressure == 0; !left_out) {
+        step.failed = step.failed || values.empty();
+        words.push_back(deviation_words(target, step.values.back()));
+      }
       sample.values.push_back(std::move(values));
     }
     step.error = step.failed ? first_error(readings) : "";
@@ -360,7 +381,7 @@ class Work {
       const Target& target = result_.subject.targets[i];
       const double off = std::abs(now.mean[i] - target.to_search(target.number.value)),
                    width = laboratory_width(target);
-      if (now.deviation[i] > 0.5 * width && off < width + 3 * now.deviation[i]) return false;
+      if (now.deviation[i] > told_share * width && off < width + 3 * now.deviation[i]) return false;
     }
     return true;
   }
@@ -413,7 +434,6 @@ class Work {
   /// One seed stands for all while searching. Now means over fresh ones are brought to the targets: two more at each step, whose
   /// results add up, until they tell as much as the laboratory knows or the budget is left for the last round alone.
   void confirm() {
-    const int tests = static_cast<int>(confirming_tests().size());
     search::Expected now;
     if (!samples_.empty()) now = expected();
     bool thorough = false;
@@ -422,12 +442,20 @@ class Work {
       if (!samples_.empty() && has_means(now)) {
         const Correction next = correction(now);
         settled = is_told(now) && is_small(next, now);
-        if (thorough && (settled || left() < plan_.seeds * tests || last_rounds == most_rounds)) break;
-        if (!settled) take(next);
+        const int least = plan_.seeds * static_cast<int>(telling_tests(now).size());
+        if (thorough && (settled || left() < least || last_rounds == most_rounds)) break;
+        if (!settled) {
+          take(next);
+          now = expected();
+        }
       }
-      thorough = settled || left() < (seeds_of_a_step + plan_.seeds) * tests;
+      std::vector<Test> tests = telling_tests(now);
+      thorough = settled || left() < (seeds_of_a_step + plan_.seeds) * static_cast<int>(tests.size());
+      // The last round shows all, where the budget allows.
+      const std::vector<Test> all = confirming_tests();
+      if (thorough && left() >= plan_.seeds * static_cast<int>(all.size())) tests = all;
       last_rounds += thorough;
-      test_fresh(round, thorough ? plan_.seeds : seeds_of_a_step);
+      test_fresh(round, thorough ? plan_.seeds : seeds_of_a_step, tests);
       now = expected();
       if (std::ranges::any_of(now.specimens, [](int count) { return count < 2; })) {
         result_.problems.push_back(fmt::format(
@@ -441,11 +469,13 @@ class Work {
       now = expected();
     }
     Step end{"mean", factors(x_), {}};
-    end.seeds = *std::ranges::min_element(now.specimens);
+    const auto [fewest, most] = std::ranges::minmax_element(now.specimens);
+    end.seeds = *fewest;
+    end.most_seeds = *most;
     end.is_best = true;
     for (std::size_t i = 0; i < now.mean.size(); ++i)
       end.values.push_back(result_.subject.targets[i].from_search(now.mean[i]));
-    result_.seeds = end.seeds;
+    result_.specimens = end.specimens();
     result_.path.push_back(std::move(end));
     jacobian_ = now.jacobian;
     means_ = std::move(now);
@@ -513,6 +543,7 @@ class Work {
                    half = dem::analysis::student_limit(0.05, means_->freedom[i]) * means_->deviation[i];
       TargetResult one;
       one.ours = {target.from_search(mean), target.from_search(mean - half), target.from_search(mean + half)};
+      one.specimens = means_->specimens[i];
       one.deviation = means_->scatter[i] * (target.is_logarithmic() ? one.ours.value : 1);
       const auto [low, high] = band_of(target);
       one.verdict = reports::judge_value(one.ours.value, one.ours, {low, high});
@@ -523,7 +554,7 @@ class Work {
       result_.problems.push_back(fmt::format(
           "The check {} did not hold in {} of {} tests with fresh seeds: what they gave is not sure. Run the "
           "scenario with the calibrated rock to see why; most often the loading is too fast.",
-          reports::words(check), count, fresh_seeds_ * static_cast<int>(confirming_tests().size())));
+          reports::words(check), count, fresh_tests_));
     }
     if (missed.empty()) return;
     const std::string what = fmt::format("Not met: {}.", reports::listed(missed));
@@ -611,6 +642,7 @@ class Work {
   std::vector<bool> lost_;                 ///< parameters to which the tests did not react
   std::vector<search::Sample> samples_;    ///< whole tests, by which the means are known
   int fresh_seeds_ = 0;                    ///< that were tested
+  int fresh_tests_ = 0;                    ///< of them
   std::string error_;                      ///< the first of them that failed
   std::map<std::string, int> broken_;      ///< checks that did not hold with them, and in how many tests
   std::optional<search::Expected> means_;  ///< at the end; none: not confirmed
@@ -618,6 +650,10 @@ class Work {
 };
 
 }  // namespace
+
+std::string Step::specimens() const {
+  return most_seeds > seeds ? fmt::format("{} to {}", seeds, most_seeds) : fmt::format("{}", seeds);
+}
 
 bool Outcome::is_met() const { return std::ranges::all_of(subjects, &SubjectResult::is_met); }
 

@@ -17,8 +17,10 @@ struct Step {
   std::vector<double> factors;  ///< of Subject::moved; those not free in the stage as they were
   std::vector<double> values;   ///< of every target, in its unit; NaN: not measured there, or the test failed
   bool is_best = false, is_difference = false, failed = false;
-  std::string error = {};  ///< why it failed
-  int seeds = 1;           ///< that the values are means of
+  std::string error = {};                       ///< why it failed
+  int seeds = 1;                                ///< that the values are means of
+  int most_seeds = 0;                           ///< where some are means of more
+  [[nodiscard]] std::string specimens() const;  ///< "13", "13 to 29"
 };
 
 struct ParameterResult {
@@ -33,6 +35,7 @@ struct ParameterResult {
 struct TargetResult {
   dem::analysis::Estimate ours;  ///< mean over specimens
   double deviation = 0;          ///< between specimens, in its unit
+  int specimens = 0;             ///< that the mean is of
   reports::Verdict verdict = reports::Verdict::not_computed;
 };
 
@@ -53,7 +56,7 @@ struct SubjectResult {
   double condition = 0;         ///< of the derivatives at the end
   std::vector<Advice> advice;
   int tests = 0;
-  int seeds = 0;  ///< specimens that the means are of
+  std::string specimens;  ///< that the means are of: "13 to 29"
   double steps = 0;
   std::vector<std::string> problems;  ///< what a person should do, a sentence each; empty: all is met
   bool is_met = false;

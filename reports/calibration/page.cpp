@@ -114,6 +114,7 @@ Data targets_data(const SubjectResult& result) {
     row.set("ours", there ? number(ours->ours.value, 4) : "–");
     row.set("interval",
             there && ours->ours.has_interval() ? number(ours->ours.low, 4) + " to " + number(ours->ours.high, 4) : "");
+    row.set("specimens", there ? std::to_string(ours->specimens) : "");
     row.set("scatter", there ? number(ours->deviation, 2) : "");
     row.set("deviation", !there ? ""
                          : target.is_logarithmic()
@@ -173,7 +174,7 @@ Data path_data(const SubjectResult& result) {
       texts.push_back(std::isfinite(step.values[i]) ? number(step.values[i], 4) : "–");
     Data row;
     row.set("trial", std::to_string(++trial));
-    row.set("stage", step.stage == "mean" ? fmt::format("mean of {}", step.seeds)
+    row.set("stage", step.stage == "mean" ? fmt::format("mean of {}", step.specimens())
                      : step.seeds > 1     ? fmt::format("{} fresh seeds", step.seeds)
                                           : step.stage);
     row.set("cells", cells(texts));
@@ -187,12 +188,20 @@ Data path_data(const SubjectResult& result) {
   return rows;
 }
 
+/// May break after dots and underscores, in a narrow column.
+std::string breaking(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    text += c;
+    if (c == '.' || c == '_') text += "\u200b";
+  }
+  return text;
+}
+
 std::vector<std::string> path_heads(const SubjectResult& result) {
   std::vector<std::string> heads;
   for (const std::size_t k : result.subject.moved) {
-    std::string name = result.subject.candidates[k].name;
-    if (const std::size_t dot = name.find('.'); dot != std::string::npos) name.insert(dot + 1, "\u200b");  // may break
-    heads.push_back(name + ", ×");
+    heads.push_back(breaking(result.subject.candidates[k].name));
   }
   for (const Target& target : result.subject.targets) {
     heads.push_back(target.symbol() + (target.number.unit.empty() ? "" : " (" + std::string(target.number.unit) + ")"));
@@ -273,7 +282,7 @@ std::string page(const Outcome& outcome, const PageFacts& facts, const std::vect
     find(fmt::format("{}: of {} measured value{} {} within the uncertainty, {} outside, {} undecided, by means over {} "
                      "specimens; {} of {} tests.",
                      capital(subject.title()), subject.targets.size(), subject.targets.size() == 1 ? "" : "s", met,
-                     missed, undecided, result.seeds, result.tests, subject.budget),
+                     missed, undecided, result.specimens, result.tests, subject.budget),
          missed > 0 || result.targets.empty() ? "bad"
          : undecided > 0                      ? "plain"
                                               : "good");
@@ -354,6 +363,7 @@ std::string json(const Outcome& outcome, const PageFacts& facts) {
         const TargetResult& ours = result.targets[i];
         target["computed"] = or_null(ours.ours.value);
         if (ours.ours.has_interval()) target["interval"] = {ours.ours.low, ours.ours.high};
+        target["specimens"] = ours.specimens;
         target["deviation"] = or_null(ours.deviation);
         target["verdict"] = reports::laboratory_word(ours.verdict);
       }

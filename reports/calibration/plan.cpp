@@ -264,8 +264,6 @@ Plan make_plan(const dem::Scenario& scenario, std::span<const dem::Measurable> m
   for (const std::string& owner : owners) {
     Subject subject;
     subject.mineral = owner;
-    // Boundaries have parameters of their own, and act on all targets at once: their search is longer.
-    subject.budget = owner.empty() && minerals.size() > 1 ? 2 * budget : budget;
     std::string table = "measured.";
     for (std::size_t i = 0; i < minerals.size(); ++i) {
       if (minerals[i] == owner) table = fmt::format("mineral[{}].measured.", i);
@@ -288,6 +286,15 @@ Plan make_plan(const dem::Scenario& scenario, std::span<const dem::Measurable> m
     });
     refuse_contradictions(scenario, table, subject.targets);
     if (find(subject.targets, "hoek_brown_m")) subject.pressures = pressures_of_m(scenario, subject.targets);
+    subject.budget = budget;
+    if (owner.empty() && minerals.size() > 1) {
+      // Boundaries have parameters of their own, and act on all targets at once: their search is longer. Each confining
+      // pressure is one more test of every specimen.
+      std::set<double> pressures(subject.pressures.begin(), subject.pressures.end());
+      for (const Target& target : subject.targets) pressures.insert(target.number.pressure);
+      pressures.erase(0);
+      subject.budget = 2 * budget + static_cast<int>(pressures.size()) * (budget / 2);
+    }
 
     // What the user names; else what there is, the parameters that matter most first.
     const auto of_subject = [&](const std::string& name) {

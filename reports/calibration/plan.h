@@ -21,6 +21,7 @@ struct Parameter : dem::texture::MicroParameter {
 struct Target {
   reports::LaboratoryNumber number;
   [[nodiscard]] bool is_logarithmic() const { return number.key != "poisson_ratio"; }
+  [[nodiscard]] bool is_confined() const { return number.pressure > 0 || !number.fit.empty(); }
   [[nodiscard]] double to_search(double value) const;
   [[nodiscard]] double from_search(double value) const;
   [[nodiscard]] double laboratory_deviation() const;  ///< in the coordinate of the search

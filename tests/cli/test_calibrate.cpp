@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "engine/core/files.h"
@@ -226,4 +227,23 @@ TEST_CASE("a range that excludes the answer, and a test that gives nothing, end 
   CHECK(nothing.code == 1);
   CHECK(has(nothing.err, "gave no result to go on from"));
   CHECK(has(nothing.err, "Start from other values"));
+}
+
+TEST_CASE("specimens are not tested under pressure once the peak there is known well enough") {
+  const test::Scratch scratch;
+  const test::Outcome outcome =
+      calibrate(scratch.path(), at_start("young_modulus = \"70 GPa +- 0.4 %\"\nucs = \"200 MPa +- 15 %\"\n"
+                                         "peaks = [\"340 MPa +- 25 % at 20 MPa\"]\n"));
+  INFO(outcome.err);
+  const Json subject = result(scratch.path()).at("subjects").at(0);
+  CHECK(subject.at("tests").get<int>() <= 40);
+  std::map<std::string, int> specimens;
+  for (const Json& target : subject.at("targets"))
+    specimens[target.at("key").get<std::string>()] = target.at("specimens").get<int>();
+  CHECK(specimens.at("peaks") >= 3);
+  CHECK(specimens.at("ucs") == specimens.at("young_modulus"));
+  CHECK(specimens.at("young_modulus") > specimens.at("peaks") + 4);
+  CHECK(has(dem::read_file(scratch / "out/stone.smoke/calibration/calibration.html"),
+            "by means over " + std::to_string(specimens.at("peaks")) + " to " + std::to_string(specimens.at("ucs")) +
+                " specimens"));
 }
