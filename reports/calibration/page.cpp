@@ -10,6 +10,7 @@
 #include "engine/core/errors.h"
 #include "engine/core/files.h"
 #include "engine/scenario/units.h"
+#include "reports/page/again.h"
 #include "reports/page/downloads.h"
 #include "reports/page/typeset.h"
 #include "reports/text.h"
@@ -247,7 +248,8 @@ render::Chart path_chart(const SubjectResult& result) {
   return chart;
 }
 
-std::string page(const Outcome& outcome, const PageFacts& facts, const std::vector<std::filesystem::path>& charts) {
+std::string page(const dem::Scenario& scenario, const Outcome& outcome, const PageFacts& facts,
+                 const std::vector<std::filesystem::path>& charts) {
   kainjow::mustache::mustache pattern(dem::read_file(facts.assets / "page" / "calibration.html"));
   if (!pattern.is_valid())
     throw dem::EnvironmentError("the page template calibration.html is broken: " + pattern.error_message());
@@ -261,7 +263,8 @@ std::string page(const Outcome& outcome, const PageFacts& facts, const std::vect
   data.set("rock", facts.rock);
   data.set("rock_text", facts.rock_text);
   data.set("rock_href", reports::data_uri(facts.rock_text, "x.toml"));
-  data.set("command", facts.command);
+  data.set("again", reports::again_data(scenario, facts.again));
+  data.set("sources", reports::sources_data(scenario, facts.again, false));
   Data findings = list();
   const auto find = [&](const std::string& text, const char* state) {
     Data item;

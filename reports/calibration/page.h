@@ -4,6 +4,7 @@
 #include <string>
 
 #include "reports/calibration/calibration.h"
+#include "reports/options.h"
 
 namespace calibrate {
 
@@ -12,7 +13,7 @@ struct PageFacts {
   std::string title;
   std::string rock;       ///< name of the calibrated file: "my_rock.calibrated.toml"
   std::string rock_text;  ///< its text
-  std::string command;    ///< that makes it again
+  reports::Again again;   ///< how to make it again
   std::uint64_t seed = 1;
   std::filesystem::path assets;
 };
@@ -22,7 +23,8 @@ render::Chart path_chart(const SubjectResult& result);
 
 /// From assets/page/calibration.html; `charts`: an SVG file for each subject, embedded.
 /// Throws dem::EnvironmentError when an asset is missing or broken.
-std::string page(const Outcome& outcome, const PageFacts& facts, const std::vector<std::filesystem::path>& charts);
+std::string page(const dem::Scenario& scenario, const Outcome& outcome, const PageFacts& facts,
+                 const std::vector<std::filesystem::path>& charts);
 
 /// As assets/calibration.schema.json describes it.
 std::string json(const Outcome& outcome, const PageFacts& facts);

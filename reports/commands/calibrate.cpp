@@ -95,7 +95,7 @@ void write_pages(const RunRequest& request, const dem::Study& study, const calib
     }
   }
   dem::write_file(places.folder / "calibration.json", calibrate::json(outcome, facts));
-  const std::string html = calibrate::page(outcome, facts, charts);
+  const std::string html = calibrate::page(study.scenario, outcome, facts, charts);
   if (request.html) dem::write_file(places.folder / "calibration.html", html);
   if (request.pdf) {
     reports::print_pdf(html, facts.assets / "page" / "print.css", places.folder / "calibration.pdf",
@@ -134,10 +134,10 @@ int perform(const Arguments& arguments) {
     facts.rock = places.rock.filename().string();
     facts.seed = study.scenario.seed();
     facts.assets = assets;
-    facts.command = how_again(request, study.scenario, shipped_scenarios(assets), Home::clone).command;
-    facts.command.replace(0, std::string("./dem-report").size(), "./dem-report calibrate");
-    facts.rock_text =
-        calibrate::rock_file(study.scenario, *study.model, outcome.values, rock_head(request, study, facts.command));
+    facts.again = how_again(request, study.scenario, shipped_scenarios(assets), Home::clone);
+    facts.again.command.replace(0, std::string("./dem-report").size(), "./dem-report calibrate");
+    facts.rock_text = calibrate::rock_file(study.scenario, *study.model, outcome.values,
+                                           rock_head(request, study, facts.again.command));
     dem::write_file(places.rock, facts.rock_text);
     progress.say("drawing the report");
     write_pages(request, study, outcome, facts, places);

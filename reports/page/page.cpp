@@ -10,10 +10,10 @@
 #include "engine/core/files.h"
 #include "engine/model/quantities.h"
 #include "reports/page/abbreviations.h"
+#include "reports/page/again.h"
 #include "reports/page/choices.h"
 #include "reports/page/citations.h"
 #include "reports/page/downloads.h"
-#include "reports/page/listing.h"
 #include "reports/page/page_parts.h"
 #include "reports/page/typeset.h"
 #include "reports/published/papers.h"
@@ -60,23 +60,6 @@ std::string texts_of(const StudyResult& study, const Comparisons& comparisons, c
     }
   }
   return text;
-}
-
-/// Words of a comment that no line holds are cut: to break one of 20,000 letters takes WeasyPrint minutes.
-std::string with_short_words(std::string_view text) {
-  constexpr std::size_t most = 300;
-  std::string shown;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find_first_of(" \n\t,"), text.size());
-    std::size_t kept = std::min(end, most);
-    while (kept < end && kept > 0 && (static_cast<unsigned char>(text[kept]) & 0xc0) == 0x80)
-      --kept;  // whole characters
-    shown += text.substr(0, kept);
-    if (kept < end) shown += fmt::format("... ({} bytes more)", end - kept);
-    if (end < text.size()) shown += text[end];
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return shown;
 }
 
 Citation read_citation(const Json& declared) {
@@ -135,45 +118,6 @@ void set_citations(PageData& data, const StudyResult& study, const ReportOptions
   data.set("bibtex_href", data_uri(entries, "x.bib"));
 }
 
-/// The files that have to be saved before the command is given, and the command.
-PageData way(const dem::Scenario& scenario, const Again& again) {
-  std::vector<std::string> saved;
-  for (const auto& [file, place] :
-       {std::pair{scenario.file(), again.scenario}, std::pair{scenario.included(), again.rock}}) {
-    if (place.shipped || !std::filesystem::exists(file)) continue;
-    saved.push_back(place.path.empty() ? std::filesystem::path(file).filename().string() : place.path);
-  }
-  PageData data;
-  data.set("command", again.command);
-  data.set("has_saved", !saved.empty());
-  data.set("saved", listed(saved));
-  data.set("has_needs", !again.needs.empty());
-  data.set("needs", again.needs);
-  return data;
-}
-
-/// `printed`: on paper, in columns.
-void set_again(PageData& data, const dem::Scenario& scenario, const ReportOptions& options, bool printed) {
-  constexpr std::size_t column = 41;  // characters
-
-  PageData sources{PageData::type::list};
-  for (const auto& [file, place] :
-       {std::pair{scenario.file(), options.again.scenario}, std::pair{scenario.included(), options.again.rock}}) {
-    if (!std::filesystem::exists(file)) continue;
-    const std::string text = dem::read_file(file);
-    const std::string name = place.path.empty() ? std::filesystem::path(file).filename().string() : place.path;
-    PageData source;
-    source.set("name", name);
-    source.set("file", std::filesystem::path(name).filename().string());
-    source.set("text", printed ? listing(with_short_words(text), column) : with_short_words(text));
-    source.set("href", data_uri(text, "x.toml"));
-    sources.push_back(source);
-  }
-  data.set("sources", sources);
-  data.set("again", way(scenario, options.again));
-  if (!options.again_installed.command.empty()) data.set("again_installed", way(scenario, options.again_installed));
-}
-
 }  // namespace
 
 std::string page(const StudyResult& study, const Comparisons& comparisons, const std::vector<DrawnFigure>& figures,
@@ -224,7 +168,10 @@ std::string page(const StudyResult& study, const Comparisons& comparisons, const
   data.set("choices", list_of(choices));
   data.set("of_a_paper", study.of_a_paper);
   set_citations(data, study, options);
-  set_again(data, scenario, options, images != Images::embedded);
+  data.set("sources", sources_data(scenario, options.again, images != Images::embedded));
+  data.set("again", again_data(scenario, options.again));
+  if (!options.again_installed.command.empty())
+    data.set("again_installed", again_data(scenario, options.again_installed));
   data.set("since", images == Images::embedded ? options.since_reference.shown : options.since_reference.printed);
   return typeset(pattern.render(data));
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -121,11 +122,18 @@ TEST_CASE("a hidden mineral is found within the stated intervals, and its rock g
     CHECK(at->at("interval").at(1).get<double>() > factor);
     CHECK(at->at("factor").get<double>() == doctest::Approx(factor).epsilon(0.12));
   }
+  CHECK(std::system(("/usr/bin/python3 -W ignore -m jsonschema -i '" +
+                     (scratch / "out/stone.smoke/calibration/calibration.json").string() +
+                     "' '" DEM_SOURCE_DIR "/assets/calibration.schema.json'")
+                        .c_str()) == 0);
   // What the data cannot tell is kept, and the page says what would.
   CHECK(subject.at("kept").size() >= 2);
   const std::string page = dem::read_file(scratch / "out/stone.smoke/calibration/calibration.html");
   CHECK(has(page, "kept at"));
   CHECK(has(page, "To determine it, measure"));
+  // Nobody else has this scenario: the page holds it.
+  CHECK(has(page, "with stone.toml saved there"));
+  CHECK(has(page, "Save stone.toml"));
 
   // The rock can be included, and is what was run.
   const std::string rock = dem::read_file(scratch / "out/stone.smoke/rocks/stone.calibrated.toml");
