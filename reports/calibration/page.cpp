@@ -4,21 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
 
-#include "engine/core/errors.h"
 #include "engine/core/files.h"
 #include "engine/scenario/units.h"
 #include "reports/page/again.h"
 #include "reports/page/downloads.h"
 #include "reports/page/typeset.h"
+#include "reports/template.h"
 #include "reports/text.h"
 
 namespace calibrate {
 namespace {
 
-using Data = kainjow::mustache::data;
+using Data = reports::PageData;
 using Json = nlohmann::ordered_json;
 using reports::capital;
 using reports::number;
@@ -250,9 +249,6 @@ render::Chart path_chart(const SubjectResult& result) {
 
 std::string page(const dem::Scenario& scenario, const Outcome& outcome, const PageFacts& facts,
                  const std::vector<std::filesystem::path>& charts) {
-  kainjow::mustache::mustache pattern(dem::read_file(facts.assets / "page" / "calibration.html"));
-  if (!pattern.is_valid())
-    throw dem::EnvironmentError("the page template calibration.html is broken: " + pattern.error_message());
   Data data;
   data.set("style", dem::read_file(facts.assets / "page" / "report.css"));
   data.set("title", facts.title);
@@ -327,7 +323,7 @@ std::string page(const dem::Scenario& scenario, const Outcome& outcome, const Pa
   }
   data.set("findings", findings);
   data.set("subjects", subjects);
-  return reports::typeset(pattern.render(data));
+  return reports::typeset(reports::fill_template(facts.assets / "page" / "calibration.html", std::move(data)));
 }
 
 std::string json(const Outcome& outcome, const PageFacts& facts) {

@@ -4,19 +4,18 @@
 
 #include <algorithm>
 #include <array>
-#include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
 
 #include "engine/core/base64.h"
-#include "engine/core/errors.h"
 #include "engine/core/files.h"
 #include "engine/scenario/units.h"
+#include "reports/template.h"
 #include "reports/text.h"
 
 namespace comparison {
 namespace {
 
-using Data = kainjow::mustache::data;
+using Data = reports::PageData;
 using Json = nlohmann::ordered_json;
 
 constexpr std::array kinds = {Kind::study_case, Kind::result,  Kind::check, Kind::published,
@@ -276,15 +275,6 @@ Data study_data(const StudyComparison& study, std::size_t& room) {
   return data;
 }
 
-std::string render(const Data& data, const std::filesystem::path& file) {
-  kainjow::mustache::mustache pattern(dem::read_file(file));
-  if (!pattern.is_valid()) {
-    throw dem::EnvironmentError("the page template " + file.filename().string() +
-                                " is broken: " + pattern.error_message());
-  }
-  return pattern.render(data);
-}
-
 Json item_json(const Item& item) {
   Json json{{"id", item.id}, {"state", state_id(item.state)}};
   const auto put = [&](const char* name, const std::string& text) {
@@ -321,7 +311,7 @@ std::string comparison_page(const Comparison& comparison, const std::filesystem:
                       : all == 1 ? comparison.studies[0].sentence()
                                  : fmt::format("{} studies: nothing changed beyond tolerance", all));
   data.set("studies", studies);
-  return render(data, assets / "page" / "comparison.html");
+  return reports::fill_template(assets / "page" / "comparison.html", std::move(data));
 }
 
 std::string since_section(const StudyComparison& study, const std::string& page, const std::filesystem::path& assets) {
@@ -338,7 +328,7 @@ std::string since_section(const StudyComparison& study, const std::string& page,
   flag(data, "has_rows", shown > 0);
   set(data, "more", shown > most ? fmt::format("and {} more", shown - most) : "");
   set(data, "page", page);
-  return render(data, assets / "page" / "since.html");
+  return reports::fill_template(assets / "page" / "since.html", std::move(data));
 }
 
 std::string comparison_json(const Comparison& comparison) {

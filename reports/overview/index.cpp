@@ -3,18 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
 
 #include "engine/core/base64.h"
-#include "engine/core/errors.h"
 #include "engine/core/files.h"
+#include "reports/template.h"
 #include "reports/text.h"
 
 namespace overview {
 namespace {
 
-using Data = kainjow::mustache::data;
+using Data = reports::PageData;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_lines = 6;  // of sparklines a study, those that stepped first
@@ -166,10 +165,6 @@ std::string verdict(const std::vector<StudyRow>& rows) {
 }  // namespace
 
 std::string index_page(const std::vector<StudyRow>& rows, const History* history, const std::filesystem::path& assets) {
-  kainjow::mustache::mustache pattern(dem::read_file(assets / "page" / "index.html"));
-  if (!pattern.is_valid()) {
-    throw dem::EnvironmentError("the page template index.html is broken: " + pattern.error_message());
-  }
   Data data, list{Data::type::list};
   for (const StudyRow& row : rows) list.push_back(row_data(row, history));
   data.set("style", dem::read_file(assets / "page" / "night.css"));
@@ -190,7 +185,7 @@ std::string index_page(const std::vector<StudyRow>& rows, const History* history
   data.set("damaged", history && history->damaged > 0
                           ? fmt::format("{} lines of the history are damaged and left out.", history->damaged)
                           : std::string());
-  return pattern.render(data);
+  return reports::fill_template(assets / "page" / "index.html", std::move(data));
 }
 
 std::string index_json(const std::vector<StudyRow>& rows, const History* history) {

@@ -2,7 +2,7 @@
 // How a page is made again: the files to be saved, what they hold, and the command.
 #include "engine/scenario/scenario.h"
 #include "reports/options.h"
-#include "reports/page/page_parts.h"
+#include "reports/template.h"
 
 namespace reports {
 

@@ -123,10 +123,6 @@ void set_citations(PageData& data, const StudyResult& study, const ReportOptions
 std::string page(const StudyResult& study, const Comparisons& comparisons, const std::vector<DrawnFigure>& figures,
                  const ReportOptions& options, Images images) {
   const dem::Scenario& scenario = *study.scenario;
-  kainjow::mustache::mustache pattern(dem::read_file(options.assets / "page" / "report.html"));
-  if (!pattern.is_valid()) {
-    throw dem::EnvironmentError("the page template report.html is broken: " + pattern.error_message());
-  }
   Json choices = Json::array();
   for (const Paper& paper : papers_of(scenario.model(), options.assets / "papers")) {
     for (const Json& one : about(study, asset(paper.folder / "choices.json"))) choices.push_back(one);
@@ -173,7 +169,7 @@ std::string page(const StudyResult& study, const Comparisons& comparisons, const
   if (!options.again_installed.command.empty())
     data.set("again_installed", again_data(scenario, options.again_installed));
   data.set("since", images == Images::embedded ? options.since_reference.shown : options.since_reference.printed);
-  return typeset(pattern.render(data));
+  return typeset(fill_template(options.assets / "page" / "report.html", std::move(data)));
 }
 
 }  // namespace reports

@@ -4,15 +4,12 @@
 #include <string>
 #include <vector>
 
-#include <kainjow/mustache.hpp>
-
 #include "reports/drawn.h"
 #include "reports/options.h"
 #include "reports/published/published.h"
+#include "reports/template.h"
 
 namespace reports {
-
-using PageData = kainjow::mustache::data;
 
 PageData title_data(const StudyResult& study, const ReportOptions& options);  ///< title block
 PageData cases_data(const StudyResult& study);                                ///< what was run

@@ -12,6 +12,7 @@
 
 #include "engine/analysis/ending.h"
 #include "engine/analysis/ledger.h"
+#include "engine/core/errors.h"
 #include "engine/core/files.h"
 #include "engine/lattice/quantities.h"
 #include "engine/texture/quantities.h"
@@ -25,6 +26,7 @@
 #include "reports/page/page.h"
 #include "reports/page/page_parts.h"
 #include "reports/page/typeset.h"
+#include "reports/template.h"
 #include "reports/text.h"
 #include "tests/reports/synthetic.h"
 #include "tests/support/scratch.h"
@@ -43,6 +45,27 @@ TEST_CASE("numbers as a reader sees them") {
   CHECK(reports::with_sign(reports::fixed(1.5, 1)) == "+1.5");
   CHECK(reports::with_sign(reports::fixed(-1.5, 1)) == "\u22121.5");
   CHECK(reports::listed({"a", "b", "c"}) == "a, b and c");
+}
+
+TEST_CASE("a template shares parts with others; one that is missing or broken is named") {
+  const test::Scratch scratch;
+  std::filesystem::create_directories(scratch / "parts");
+  const auto write = [&](const char* name, const char* text) {
+    dem::write_file(scratch / name, text);
+    return scratch / name;
+  };
+  const auto page = write("page.html", "<main>\n{{> hello}}\n{{#inner}}{{> hello}}{{/inner}}\n</main>");
+  reports::PageData data, inner;
+  data.set("name", "a & b");
+  inner.set("name", "c");
+  data.set("inner", inner);
+  CHECK_THROWS_WITH_AS((void)reports::fill_template(page, data), doctest::Contains("hello.html"),
+                       dem::EnvironmentError);
+  write("parts/hello.html", "Hello {{name}}.\n");
+  CHECK(reports::fill_template(page, data) == "<main>\nHello a &amp; b.\nHello c.\n</main>");
+  write("parts/hello.html", "Hello {{#name}}.");
+  CHECK_THROWS_WITH_AS((void)reports::fill_template(page, data),
+                       doctest::Contains("the page template hello.html is broken"), dem::EnvironmentError);
 }
 
 TEST_CASE("a page is set in type: indices, no-break spaces, degrees, apostrophes") {
