@@ -181,8 +181,6 @@ Table history_table(const Test& test, const std::vector<HistoryRow>& h) {
   return t;
 }
 
-double cracks_in(const HistoryRow& r) { return r.cracks[0] + r.cracks[1] + r.cracks[2] + r.cracks[3]; }
-
 // Named moments, each with the nearest kept frame.
 void add_snapshots(Record& record, const Loading& loading, const Characteristics& c, std::size_t end) {
   const std::vector<HistoryRow>& h = loading.history();
@@ -223,7 +221,7 @@ void add_snapshots(Record& record, const Loading& loading, const Characteristics
             {{"moment", name},
              {"strain", fmt::format("{:.6g}", at.axial_strain)},
              {"stress", fmt::format("{:.6g}", at.axial_stress)},
-             {"cracks", fmt::format("{:.0f}", cracks_in(at))},
+             {"cracks", fmt::format("{:.0f}", at.all_cracks())},
              {"displacement_at_strain", fmt::format("{:.6g}", h[static_cast<std::size_t>(nearest->row)].axial_strain)}},
             {}};
     t.add("displacement", "m", std::vector<double>(nearest->displacement.begin(), nearest->displacement.end()), 3);

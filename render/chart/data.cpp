@@ -192,8 +192,7 @@ std::optional<Vec2> place_inside(const ChartLayout& layout, const Band& band) {
       return mark.kind == Mark::Kind::vertical && x > from && x < to;
     });
   };
-  constexpr double tick = 8;  // px that ticks reach into the plot, with some air
-  for (double left = layout.plot.left + tick; left + width <= layout.plot.right - tick; left += 4) {
+  for (double left = layout.plot.left + tick_room; left + width <= layout.plot.right - tick_room; left += 4) {
     const double right = left + width;
     if (band.x.empty() || layout.across(band.x.front()) > left) continue;
     double top = layout.plot.top, bottom = layout.plot.bottom;

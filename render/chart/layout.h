@@ -13,6 +13,7 @@ namespace render {
 
 constexpr Colour ink{0.12, 0.12, 0.12};
 constexpr double tick_length = 5, minor_tick_length = 3, label_gap = 5, hatch_gap = 3.6, hatch_width = 1.1;
+constexpr double tick_room = 8;  ///< px inside the frame that hold its ticks, with some air
 
 /// The key of a legend to one thing drawn: its sample and its label.
 struct LegendKey {

@@ -90,6 +90,8 @@ void label_line(Paper& paper, const ChartLayout& layout, const Mark& mark, const
       const Rect box = text_box(middle, width, layout.text);
       double cost = 8 * taken.taken({box.left + 1, box.top + 1, box.right - 1, box.bottom - 1}) + (order += 0.5);
       if (!layout.plot.holds(box)) cost += 500;
+      const bool on_ticks = box.left < layout.plot.left + tick_room || box.right > layout.plot.right - tick_room;
+      if (!horizontal && on_ticks) cost += 3;
       if (cost < least) {
         least = cost;
         best = middle;

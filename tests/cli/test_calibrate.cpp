@@ -149,6 +149,24 @@ TEST_CASE("a hidden mineral is found within the stated intervals, and its rock g
   CHECK(has(html, "Measured in the laboratory"));
 }
 
+TEST_CASE("where the laboratory split discs, discs are split") {
+  const test::Scratch scratch;
+  // Measured as discs of 36 MPa give it, seeds 101 to 105: 21 to 26 MPa. A fall of the load at 8.5 MPa, with ten cracks of
+  // one of them, is no splitting.
+  std::string text = at_start("brazilian_strength = \"22.5 MPa +- 3.5\"\n", "budget = 12\nseeds = 2");
+  text.replace(text.find("[measure]"), 0, "[brazilian]\ndiameter = \"10 mm\"\nthickness = \"5 mm\"\n");
+  const test::Outcome outcome = calibrate(scratch.path(), text);
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const Json subject = result(scratch.path()).at("subjects").at(0);
+  CHECK(subject.at("targets").at(0).at("computed").get<double>() == doctest::Approx(22.5).epsilon(0.15));
+  REQUIRE(subject.at("parameters").size() == 1);
+  const Json parameter = subject.at("parameters").at(0);
+  CHECK(parameter.at("name") == "stone.tensile_strength");
+  CHECK(parameter.at("interval").at(0).get<double>() < 36.0 / 45);
+  CHECK(parameter.at("interval").at(1).get<double>() > 36.0 / 45);
+}
+
 TEST_CASE("any number of threads, and a search that was stopped, give the same bytes") {
   const test::Scratch scratch;
   const std::string text = at_start(hidden_data());

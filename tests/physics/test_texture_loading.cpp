@@ -96,6 +96,15 @@ TEST_CASE("the rules that end a test") {
     CHECK_FALSE(end_row(triangle(peak, 5e-4, 0.5), {.stop = 0.4, .strain_limit = 1.3}));
   }
   SUBCASE("noise ends nothing") { CHECK_FALSE(end_row(triangle(0.9e5, at, 0.1), {.stop = 0.8})); }
+  SUBCASE("a fall with few cracks is a local one, unless to half of the peak") {
+    auto history = triangle(peak, at, 0.3);
+    for (HistoryRow& row : history) row.cracks = {40, 9, 50, 0};
+    CHECK(end_row(history, {.stop = 0.8, .least_cracks = 99}) == 121);
+    const auto end = end_row(history, {.stop = 0.8, .least_cracks = 100});
+    REQUIRE(end);
+    CHECK(history[*end].axial_stress == doctest::Approx(0.5 * peak).epsilon(0.011));
+    CHECK_FALSE(end_row(triangle(peak, at, 0.52), {.stop = 0.8, .least_cracks = 100}));
+  }
   SUBCASE("a test may be followed after its end") {
     auto history = triangle(peak, at, 0.5);
     CHECK(is_over(history, {.stop = 0.8, .follow = 1.5}));

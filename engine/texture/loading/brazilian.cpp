@@ -12,36 +12,46 @@ namespace {
 constexpr std::string_view name = "brazilian";
 
 std::vector<Key> keys() {
-  std::vector<Key> own = {{.path = "brazilian.diameter",
-                           .unit = "mm",
-                           .low = 1,
-                           .high = 1000,
-                           .otherwise = "specimen.height",
-                           .affects = Affects::specimen,
-                           .when = {"brazilian"},
-                           .help = "D, diameter of the disc"},
-                          {.path = "brazilian.thickness",
-                           .unit = "mm",
-                           .low = 0,
-                           .high = 1000,
-                           .standard = "\"0 mm\"",
-                           .affects = Affects::specimen,
-                           .when = {"brazilian"},
-                           .help = "t, thickness of the disc, at least 13 times packing.minimum_radius; 0: D / 2"},
-                          {.path = "brazilian.jaw_ratio",
-                           .low = 0,
-                           .high = 20,
-                           .standard = "1.5",
-                           .affects = Affects::test,
-                           .when = {"brazilian"},
-                           .help = "radius of the curved jaws over that of the disc (ISRM: 1.5); 0: flat platens"},
-                          {.path = "sweep.jaw_ratio",
-                           .type = KeyType::reals,
-                           .low = 0,
-                           .high = 20,
-                           .standard = "[]",
-                           .affects = Affects::cases,
-                           .help = "jaw ratios of the Brazilian tests; empty: brazilian.jaw_ratio"}};
+  std::vector<Key> own = {
+      {.path = "brazilian.diameter",
+       .unit = "mm",
+       .low = 1,
+       .high = 1000,
+       .otherwise = "specimen.height",
+       .affects = Affects::specimen,
+       .when = {"brazilian"},
+       .help = "D, diameter of the disc"},
+      {.path = "brazilian.thickness",
+       .unit = "mm",
+       .low = 0,
+       .high = 1000,
+       .standard = "\"0 mm\"",
+       .affects = Affects::specimen,
+       .when = {"brazilian"},
+       .help = "t, thickness of the disc, at least 13 times packing.minimum_radius; 0: D / 2"},
+      {.path = "brazilian.jaw_ratio",
+       .low = 0,
+       .high = 20,
+       .standard = "1.5",
+       .affects = Affects::test,
+       .when = {"brazilian"},
+       .help = "radius of the curved jaws over that of the disc (ISRM: 1.5); 0: flat platens"},
+      {.path = "brazilian.split",
+       .low = 0,
+       .high = 1,
+       .standard = "0.25",
+       .affects = Affects::test,
+       .when = {"brazilian"},
+       .help =
+           "fewest cracks at which the disc counts as split, as a share of the joint elements that fill the "
+           "section D t; a fall of the load with fewer is a local one and ends no test, unless to half of the peak"},
+      {.path = "sweep.jaw_ratio",
+       .type = KeyType::reals,
+       .low = 0,
+       .high = 20,
+       .standard = "[]",
+       .affects = Affects::cases,
+       .help = "jaw ratios of the Brazilian tests; empty: brazilian.jaw_ratio"}};
   const std::vector<Key> pace = pace_keys({.test = name,
                                            .moved = "platen",
                                            .rate = "5e-8",
@@ -68,9 +78,7 @@ bool in_centre(const Body& body, double length, const Vec3& at) {
 void read_off(const Test& test, const Outcome& of, Record& record) {
   if (!of.failed()) return;
   constexpr double share = 0.01, fewest = 10;
-  double at_peak = 0;
-  for (const double n : of.peak().cracks) at_peak += n;
-  const auto first = static_cast<std::size_t>(std::max(share * at_peak, fewest));
+  const auto first = static_cast<std::size_t>(std::max(share * of.peak().all_cracks(), fewest));
   const std::vector<Crack>& cracks = of.loading.assembly().cracks();
   if (cracks.size() < first) return;
   const double radius = test.body->size[2] / 2;
@@ -96,6 +104,9 @@ Test read(const Scenario& scenario) {
   }
   Test test = brazilian(diameter, thickness > 0 ? thickness : diameter / 2, jaws);
   read_pace(scenario, "brazilian.", test);
+  const double radius = scenario.real("packing.minimum_radius") * (1 + scenario.real("packing.radius_ratio")) / 2,
+               element = std::numbers::pi * radius * radius / 3;
+  test.ending.least_cracks = scenario.real("brazilian.split") * diameter * test.body->size[1] / element;
   if (thickness == 0) test.size_key = "brazilian.diameter";
   return test;
 }

@@ -10,8 +10,6 @@ namespace {
 // The gauge moves as the ends do, within this power of two; else the wave has not come to it, and there is no modulus.
 constexpr double most_octaves = 1.5;
 
-double total(const HistoryRow& row) { return row.cracks[0] + row.cracks[1] + row.cracks[2] + row.cracks[3]; }
-
 // First row at or above `stress`, on the way up.
 std::size_t first_above(const std::vector<HistoryRow>& h, std::size_t peak, double stress) {
   std::size_t i = 0;
@@ -101,9 +99,9 @@ Characteristics characterise(const std::vector<HistoryRow>& h, double departure,
       break;
     }
   }
-  const double one_percent = 0.01 * total(h[c.peak]);
+  const double one_percent = 0.01 * h[c.peak].all_cracks();
   for (std::size_t i = 0; one_percent > 0 && i <= c.peak; ++i) {
-    if (total(h[i]) >= one_percent) {
+    if (h[i].all_cracks() >= one_percent) {
       c.initiation_cracks = i;
       break;
     }

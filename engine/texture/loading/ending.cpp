@@ -6,11 +6,13 @@ namespace dem::texture {
 namespace {
 
 constexpr double least_strain = 1e-3;  // no test ends on the strain of a first, small peak
+constexpr double no_local_fall = 0.5;  // of the peak
 
 // The rules. `peak` is the row of the largest stress so far.
 bool ends(const HistoryRow& row, const HistoryRow& peak, const Ending& ending) {
   if (peak.axial_stress <= least_peak || row.phase != 0) return false;
-  const bool fell = row.axial_stress < ending.stop * peak.axial_stress;
+  const bool is_local = row.all_cracks() < ending.least_cracks && row.axial_stress > no_local_fall * peak.axial_stress;
+  const bool fell = row.axial_stress < ending.stop * peak.axial_stress && !is_local;
   const bool far = ending.strain_limit > 0 && row.platen_strain > ending.strain_limit * peak.platen_strain &&
                    row.platen_strain > least_strain;
   return fell || far;

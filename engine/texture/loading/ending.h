@@ -17,6 +17,7 @@ inline constexpr double least_peak = 1e5;
 /// ends is given up at its limits (`largest_strain`, `most_steps`): a specimen may hang together by nothing, or harden on.
 struct Ending {
   double stop = 0.8;        ///< it ends at this share of the peak stress, after it
+  double least_cracks = 0;  ///< a fall with fewer cracks is a local one and ends nothing, unless to half of the peak
   double strain_limit = 0;  ///< or at this multiple of the strain of the peak, and not below a strain of 1e-3; 0: never
   double follow = 0;        ///< it goes on after its end to this multiple of the strain of the peak
   double largest_strain = 0;    ///< of the ends; it is given up there, ended or not; 0: no limit

@@ -23,6 +23,7 @@ struct HistoryRow {
   std::array<double, 4> cracks{};  ///< intra tension, intra shear, inter tension, inter shear
   Ledger ledger;
   [[nodiscard]] double volumetric_strain() const { return axial_strain + 2 * lateral_strain; }
+  [[nodiscard]] double all_cracks() const { return cracks[0] + cracks[1] + cracks[2] + cracks[3]; }
 };
 
 /// Displacements at one sample, kept at regular strains so that named moments can be shown afterwards.
