@@ -191,7 +191,7 @@ std::vector<double> step(const Problem& problem, const std::vector<double>& poin
   const Eigen::MatrixXd whole = weighed(problem, jacobian);
   std::vector<bool> held(n, false), low(n, false), high(n, false);
   std::vector<double> next = point;
-  // An unknown that would cross its bound is put there, and the others are found anew without it.
+  // An unknown that would cross its bound, or go too far, is put there, and the others are found anew without it.
   for (std::size_t round = 0; round <= n; ++round) {
     std::vector<Eigen::Index> open;
     Eigen::VectorXd rest = r;
@@ -209,17 +209,23 @@ std::vector<double> step(const Problem& problem, const std::vector<double>& poin
     const double least = 1e-9 * std::max(diagonal.maxCoeff(), 1e-300);
     for (Eigen::Index k = 0; k < normal.rows(); ++k) normal(k, k) += damping * diagonal[k] + least;
     const Eigen::VectorXd delta = normal.ldlt().solve(part.transpose() * rest);
-    bool crossed = false;
+    // The worst first: without it others may stay inside.
+    std::optional<std::size_t> worst;
+    double most = 0;
     for (std::size_t j = 0; j < open.size(); ++j) {
       const auto k = static_cast<std::size_t>(open[j]);
-      const double wanted = point[k] + std::clamp(delta[static_cast<Eigen::Index>(j)], -farthest, farthest);
+      const double wanted = point[k] + delta[static_cast<Eigen::Index>(j)];
       const Unknown& unknown = problem.unknowns[k];
-      next[k] = std::clamp(wanted, unknown.low, unknown.high);
-      if (next[k] == wanted) continue;
-      held[k] = crossed = true;
-      (wanted < unknown.low ? low : high)[k] = true;
+      const double reached = std::clamp(wanted, point[k] - farthest, point[k] + farthest);
+      next[k] = std::clamp(reached, unknown.low, unknown.high);
+      low[k] = reached < unknown.low;
+      high[k] = reached > unknown.high;
+      if (std::abs(next[k] - wanted) <= most) continue;
+      most = std::abs(next[k] - wanted);
+      worst = k;
     }
-    if (!crossed) break;
+    if (!worst) break;
+    held[*worst] = true;
   }
   if (at_low) *at_low = low;
   if (at_high) *at_high = high;

@@ -82,6 +82,21 @@ TEST_CASE("a bound that excludes the answer holds, and is told") {
   for (const Trial& trial : found.path) CHECK(trial.point[1] <= 0.2);
 }
 
+TEST_CASE("a step that is cut short in one unknown is found anew in the others") {
+  Problem problem;
+  problem.unknowns.assign(2, {0, -2, 2});
+  problem.targets = {{0, 0.01}, {0.2, 0.1}};  // the second wants 1 of the second unknown
+  const Eigen::MatrixXd jacobian{{1, 0.5}, {0, 0.2}};
+  std::vector<bool> low, high;
+  const std::vector<double> whole = step(problem, {0, 0}, {0, 0}, jacobian, 0, 2);
+  CHECK(whole[0] == doctest::Approx(-0.5));
+  CHECK(whole[1] == doctest::Approx(1));
+  const std::vector<double> cut = step(problem, {0, 0}, {0, 0}, jacobian, 0, 0.3, &low, &high);
+  CHECK(cut[1] == doctest::Approx(0.3));
+  CHECK(cut[0] == doctest::Approx(-0.15));  // the first target stays met
+  CHECK_FALSE((low[0] || low[1] || high[0] || high[1]));
+}
+
 TEST_CASE("noise as large as that of seeds does not lead the search astray") {
   int met = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
