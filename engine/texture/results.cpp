@@ -327,11 +327,13 @@ void add_strength(Record& record, const Test& test, const Loading& loading, cons
         count += 1;
       }
       record.put(quantity::residual_over_peak, sum / count / h[c.peak].axial_stress);
-    } else if (test.ending.follow > 0 && !limit.empty()) {
+    } else if (!limit.empty() && (test.ending.follow > 0 || test.ending.follow_strain > 0)) {
       record.notes.push_back(
-          fmt::format("After its peak the test was followed to a strain of {:.3g} % and not to {:g} times that of the "
-                      "peak: {}.{} was reached.",
-                      100 * h.back().platen_strain, test.ending.follow, test.name, limit));
+          fmt::format("After its peak the test was followed to a strain of {:.3g} % and not to {}: {}.{} was reached.",
+                      100 * h.back().platen_strain,
+                      test.ending.follow > 0 ? fmt::format("{:g} times that of the peak", test.ending.follow)
+                                             : fmt::format("{:.3g} %", 100 * test.ending.follow_strain),
+                      test.name, limit));
     }
     return;
   }

@@ -110,6 +110,9 @@ TEST_CASE("the rules that end a test") {
     CHECK(is_over(history, {.stop = 0.8, .follow = 1.5}));
     CHECK_FALSE(is_over(history, {.stop = 0.8, .follow = 1.6}));
     CHECK(end_row(history, {.stop = 0.8, .follow = 1.6}) == 121);
+    // Up to a strain, however far from that of the peak.
+    CHECK(is_over(history, {.stop = 0.8, .follow_strain = 1.49 * at}));
+    CHECK_FALSE(is_over(history, {.stop = 0.8, .follow_strain = 1.6 * at}));
   }
 }
 

@@ -213,7 +213,7 @@ TEST_CASE("what makes no test is told with file, line and key") {
 TEST_CASE("a block in direct shear keeps its normal stress, breaks along the gap, and goes on to the same bits") {
   Test test = direct_shear(7e-3, 10e6);
   test.rate = 1e-6;
-  test.ending.follow = 3;
+  test.ending.follow_strain = 0.01;
   const Settings settings = granite_in(test);
   const Run run(settings);
   REQUIRE(run.loading.end());

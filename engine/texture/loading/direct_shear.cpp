@@ -53,13 +53,14 @@ std::vector<Key> keys() {
        .affects = Affects::test,
        .when = {"direct_shear"},
        .help = "rise of the normal stress a step, before the test"},
-      {.path = "direct_shear.follow",
-       .low = 1,
-       .high = 50,
-       .standard = "5.0",
+      {.path = "direct_shear.displacement",
+       .low = 0,
+       .high = 1,
+       .standard = "0.03",
        .affects = Affects::test,
        .when = {"direct_shear"},
-       .help = "the test goes on to this multiple of the displacement of the peak, for the residual"},
+       .help = "shear displacement over the edge to which all tests go on after their end: the strength after the peak "
+               "is the mean over its last fifth"},
       {.path = "sweep.normal_stress",
        .type = KeyType::reals,
        .unit = "MPa",
@@ -139,7 +140,11 @@ Test read(const Scenario& scenario) {
         fmt::format("write at least {:.2g}", std::ceil(100 * radius / edge) / 100));
   }
   test.confining_step = scenario.real("direct_shear.normal_step");
-  test.ending.follow = scenario.real("direct_shear.follow");
+  test.ending.follow_strain = scenario.real("direct_shear.displacement");
+  if (test.ending.follow_strain >= test.ending.largest_strain) {
+    throw scenario.error("direct_shear.displacement", "the test is given up before, at direct_shear.largest_strain",
+                         fmt::format("write less than {:g}, or raise that key", test.ending.largest_strain));
+  }
   return test;
 }
 
@@ -167,7 +172,7 @@ Test direct_shear(double edge, double normal_stress) {
       .section = sheared_section,
       .in_gauge = in_gap,
       .sample_strain = 2e-5,
-      .ending = {.stop = 0.8, .strain_limit = 3, .follow = 5, .largest_strain = 0.1, .most_steps = 10000000},
+      .ending = {.stop = 0.8, .strain_limit = 3, .follow_strain = 0.03, .largest_strain = 0.1, .most_steps = 10000000},
       .typical_strain = 8e-3,
       .strength = quantity::shear_strength,
       .rate_sensitivity = 1.3,

@@ -42,7 +42,7 @@ bool is_over(const std::vector<HistoryRow>& history, const Ending& ending) {
   if (!limit_reached(history, ending).empty()) return true;
   if (!end_row(history, ending)) return false;
   const auto peak = std::ranges::max_element(history, {}, &HistoryRow::axial_stress);
-  return history.back().platen_strain >= ending.follow * peak->platen_strain;
+  return history.back().platen_strain >= std::max(ending.follow * peak->platen_strain, ending.follow_strain);
 }
 
 }  // namespace dem::texture

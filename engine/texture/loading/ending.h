@@ -20,6 +20,7 @@ struct Ending {
   double least_cracks = 0;  ///< a fall with fewer cracks is a local one and ends nothing, unless to half of the peak
   double strain_limit = 0;  ///< or at this multiple of the strain of the peak, and not below a strain of 1e-3; 0: never
   double follow = 0;        ///< it goes on after its end to this multiple of the strain of the peak
+  double follow_strain = 0;     ///< and to this strain of the ends
   double largest_strain = 0;    ///< of the ends; it is given up there, ended or not; 0: no limit
   std::int64_t most_steps = 0;  ///< of the test proper; it is given up after so many; 0: no limit
 };

@@ -66,6 +66,7 @@ double Loading::fraction() const {
   if (ending.follow > 0 && end()) {
     last = ending.follow * std::ranges::max_element(history_, {}, &HistoryRow::axial_stress)->platen_strain;
   }
+  if (ending.follow_strain > 0) last = end() ? ending.follow_strain : std::max(last, ending.follow_strain);
   if (ending.largest_strain > 0) last = std::min(last, ending.largest_strain);
   double done = strain / last;
   if (ending.most_steps > 0) done = std::max(done, steps / static_cast<double>(ending.most_steps));

@@ -75,7 +75,7 @@ std::string in_letters(std::size_t n) {
 }
 
 // Where the strength after the peak was read: over the last fifth of the shear displacement (quantity::residual_shear). Tests
-// go to a multiple of the displacement of their peak, so that each has another place.
+// go to the same displacement, but for one that has not failed by then.
 struct ResidualPlace {
   double from = 0, to = 0;  ///< % of the edge
   double rise = 0;          ///< of the upper half in between, µm
@@ -177,6 +177,7 @@ std::string residual_words(const std::vector<SeriesCase>& cases) {
     rises.push_back(number(place.rise, 2));
   }
   if (places.empty()) return {};
+  if (std::ranges::all_of(places, [&](const std::string& place) { return place == places.front(); })) places.resize(1);
   const bool all = std::ranges::all_of(cases, [](const SeriesCase& item) {
     return !item.record->has(quantity::residual_shear) || place_of_residual(*item.record).dilates;
   });
@@ -290,8 +291,9 @@ FigureContent direct_shear_envelope(const StudyResult& study) {
   content.panels.push_back(
       {.id = "strengths",
        .caption = "Strengths and where they were read" + first_seed(cases) +
-                  ". The strength after the peak is the mean over the last fifth of each test, which goes on to " +
-                  shortest(study.scenario->real("direct_shear.follow")) + " times the displacement of its peak.",
+                  ". The strength after the peak is the mean over the last fifth of each test, which goes on to a "
+                  "displacement of " +
+                  percent(study.scenario->real("direct_shear.displacement"), 1) + " of the edge.",
        .alt = "",
        .content = strengths_table(cases),
        .per_row = 1});
