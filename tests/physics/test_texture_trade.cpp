@@ -178,6 +178,7 @@ TEST_CASE("what makes no test is told with file, line and key") {
       {"direct_shear", "direct_shear", "grip", "0.02", "write at least 0.05", "edge = \"7 mm\""},
       {"direct_shear", "direct_shear", "gap", "0.1", "write at least 0.17", "edge = \"7 mm\""},
       {"direct_shear", "direct_shear", "normal_stress", "\"-5 MPa\"", "from 0 MPa to 1000 MPa"},
+      {"direct_shear", "direct_shear", "displacement", "0.2", "write less than 0.1"},
       {"direct_shear", "sweep", "normal_stress", "[\"5 mm\"]", "MPa"},
       {"unloading_loops", "unloading_loops", "first", "0.06", "write less than unloading_loops.largest_strain"},
       {"unloading_loops", "unloading_loops", "every", "5e-5", "write at least 0.0001"},
