@@ -49,13 +49,13 @@ DEM_INLINE Stiffness<V> stiffness(const FlatJoint<V>& j) {
 template <class V>
 DEM_INLINE auto may_break(const Motion<V>& m, const FlatJoint<V>& j) {
   const V normal = m.gap + j.rho * root(dot(m.theta_t, m.theta_t));
-  const V twist = m.theta_n * j.rho;
-  // |u| + |twist|, without a branch; in units of sigma / kn
-  const V shear = j.inverse_ratio * (root(dot(m.u, m.u)) + root(twist * twist));
+  const V twist = m.theta_n * j.rho, zero = twist - twist;
+  // |u| + |twist|, in units of sigma / kn
+  const V shear = j.inverse_ratio * (root(dot(m.u, m.u)) + select(twist < zero, zero - twist, twist));
   return (normal > j.opening) | (shear > j.cohesion - normal * j.tan_phi);
 }
 
-/// One element of three, for joints that are looked at element by element. Two rows of four doubles, as the vector code
+/// One element of three, for joints that are looked at element by element. Eight doubles, as the vector code
 /// reads it: truths are 1 or 0.
 struct JointElement {
   Triple<double> slip{0, 0, 0};  ///< shear displacement without stress, in the frame of particle 1, m
@@ -65,7 +65,7 @@ struct JointElement {
 };
 
 /// A flat joint with its elements, and what it takes to evaluate and log it. The vector code (broken_joints in kernels.inc)
-/// reads ten rows of four doubles in this order.
+/// reads five rows of eight doubles in this order.
 struct alignas(32) PartlyBrokenJoint {
   Triple<double> reference{};  ///< D, m
   double share_one = 0.5;

@@ -31,5 +31,19 @@ inline __attribute__((always_inline)) Lanes8 root(Lanes8 a) {
 }
 inline __attribute__((always_inline)) Lanes4 select(Mask4 mask, Lanes4 yes, Lanes4 no) { return mask ? yes : no; }
 inline __attribute__((always_inline)) Lanes8 select(Mask8 mask, Lanes8 yes, Lanes8 no) { return mask ? yes : no; }
+inline __attribute__((always_inline)) bool any(Mask4 mask) {
+#ifdef __AVX__
+  return _mm256_testz_si256(reinterpret_cast<__m256i>(mask), reinterpret_cast<__m256i>(mask)) == 0;
+#else
+  return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
+#endif
+}
+inline __attribute__((always_inline)) bool any(Mask8 mask) {
+#ifdef __AVX512F__
+  return _mm512_test_epi64_mask(reinterpret_cast<__m512i>(mask), reinterpret_cast<__m512i>(mask)) != 0;
+#else
+  return ((mask[0] | mask[1] | mask[2] | mask[3]) | (mask[4] | mask[5] | mask[6] | mask[7])) != 0;
+#endif
+}
 
 }  // namespace dem::texture
