@@ -54,7 +54,13 @@ void add_broken_joints(Block& block, Particles& particles, const Kernels& kernel
 }
 
 void add_spheres(Block& block, Particles& particles) {
-  for (SphereContact& contact : block.spheres) {
+  constexpr std::size_t ahead = 6;  // particles lie anywhere
+  for (std::size_t i = 0; i < block.spheres.size(); ++i) {
+    if (i + ahead < block.spheres.size()) {
+      particles.fetch_ahead(block.spheres[i + ahead].first);
+      particles.fetch_ahead(block.spheres[i + ahead].second);
+    }
+    SphereContact& contact = block.spheres[i];
     if (contact.alive == 0) continue;
     const LinearResult result =
         advance(contact.law, particles.sphere(contact.first), particles.sphere(contact.second), particles.step);

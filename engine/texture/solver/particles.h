@@ -40,6 +40,12 @@ struct Particles {
     return {triple(p, 0), p.v[3], triple(v, 0), triple(v, 1)};
   }
 
+  /// Asks for what a contact of the particle needs, before it is worked on.
+  void fetch_ahead(std::int32_t particle) const {
+    __builtin_prefetch(row(pose, particle).v);
+    __builtin_prefetch(row(velocity, particle).v);
+    __builtin_prefetch(row(force, particle).v, 1);
+  }
   /// Adds what a contact does to its two particles.
   void add(std::int32_t first, std::int32_t second, const Action<double>& a) {
     const auto put = [](double* to, const Triple<double>& t) { to[0] += t.x, to[1] += t.y, to[2] += t.z; };
