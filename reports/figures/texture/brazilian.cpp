@@ -153,11 +153,12 @@ render::Chart strengths_chart(const std::vector<Sample>& samples) {
                       .line = render::Line::none,
                       .marker = render::Marker::circle,
                       .y_error = {}};
+  const bool several = std::ranges::any_of(samples, [](const Sample& s) { return s.values.size() > 1; });
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const double at = static_cast<double>(k) + 1;
     chart.x.ticks.emplace_back(at, samples[k].label);
     for (const double value : samples[k].values) {
-      seeds.x.push_back(at - 0.12);
+      seeds.x.push_back(several ? at - 0.12 : at);
       seeds.y.push_back(value);
     }
     const analysis::Estimate estimate = analysis::mean_of(samples[k].values);
@@ -170,7 +171,8 @@ render::Chart strengths_chart(const std::vector<Sample>& samples) {
     mean.y_error.clear();
     mean.label = "mean";
   }
-  chart.series = {seeds, mean};
+  chart.series = {seeds};
+  if (several) chart.series.push_back(mean);
   chart.legend = render::Chart::Legend::below;
   return chart;
 }
