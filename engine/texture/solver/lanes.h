@@ -31,6 +31,7 @@ inline __attribute__((always_inline)) Lanes8 root(Lanes8 a) {
 }
 inline __attribute__((always_inline)) Lanes4 select(Mask4 mask, Lanes4 yes, Lanes4 no) { return mask ? yes : no; }
 inline __attribute__((always_inline)) Lanes8 select(Mask8 mask, Lanes8 yes, Lanes8 no) { return mask ? yes : no; }
+/// Whether the mask holds in some lane.
 inline __attribute__((always_inline)) bool any(Mask4 mask) {
 #ifdef __AVX__
   return _mm256_testz_si256(reinterpret_cast<__m256i>(mask), reinterpret_cast<__m256i>(mask)) == 0;
