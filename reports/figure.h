@@ -29,7 +29,8 @@ struct PublishedNumber {
 
 /// A number that the user's laboratory measured: of the rock, or of a mineral alone. In `unit`.
 struct LaboratoryNumber {
-  std::string_view key, name, unit;              ///< "ucs", "Uniaxial compressive strength", "MPa" (dem::Measurable)
+  /// "ucs", "Uniaxial compressive strength", "UCS", "MPa" (dem::Measurable).
+  std::string_view key, name, symbol, unit;
   std::string mineral;                           ///< "": the rock
   std::string test = {}, result = {}, fit = {};  ///< what of ours it is compared with
   double pressure = 0;                           ///< confining, MPa

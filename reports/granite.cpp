@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/analysis/series.h"
 #include "engine/core/record.h"
 
@@ -15,6 +17,18 @@ StudyResult of_mineral(const StudyResult& study, std::string_view mineral) {
     return !one.record || (name ? std::string_view(*name) : std::string_view()) != mineral;
   });
   return chosen;
+}
+
+std::vector<std::string> minerals_tested(const StudyResult& study) {
+  std::vector<std::string> found;
+  for (const CaseResult& one : study.cases) {
+    if (!one.record) continue;
+    const auto parameter = std::ranges::find(one.record->parameters, "mineral", [](const auto& p) { return p.first; });
+    if (parameter == one.record->parameters.end()) continue;
+    const auto* name = std::get_if<std::string>(&parameter->second);
+    if (name && !name->empty() && std::ranges::find(found, *name) == found.end()) found.push_back(*name);
+  }
+  return found;
 }
 
 analysis::Envelopes envelopes_of(const StudyResult& study, std::string_view mineral) {

@@ -23,6 +23,8 @@ inline constexpr std::string_view test_genesis = "genesis";
 
 /// The cases of one mineral alone, by its name, or of the rock ("").
 StudyResult of_mineral(const StudyResult& study, std::string_view mineral);
+/// Minerals that are tested alone, in the order of their cases.
+std::vector<std::string> minerals_tested(const StudyResult& study);
 /// Of the compression tests of one mineral, or of the rock (""), that agree in all but confining pressure and seed.
 analysis::Envelopes envelopes_of(const StudyResult& study, std::string_view mineral = "");
 

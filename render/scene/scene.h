@@ -40,8 +40,8 @@ struct Polyline {
 
 /// A surface outline of the specimen: a transparent cylinder or box.
 struct Outline {
-  enum class Shape { none, cylinder, box } shape = Shape::none;
-  Point low{}, high{};  ///< bounds; a cylinder stands along z
+  enum class Shape { none, cylinder, disc, box } shape = Shape::none;
+  Point low{}, high{};  ///< bounds; a cylinder stands along z, a disc has its axis along y
   Colour colour{0.6, 0.6, 0.6};
   double opacity = 0.15;
 };

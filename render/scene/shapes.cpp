@@ -174,18 +174,31 @@ void add_cut_faces(Triangles& out, const Scene& scene, const View& view, const S
   }
 }
 
+bool is_round(const Outline& outline) {
+  return outline.shape == Outline::Shape::cylinder || outline.shape == Outline::Shape::disc;
+}
+
 struct Cylinder {
   Point low{}, high{};  // centres of the two ends
   double radius = 0;
+  std::array<std::size_t, 3> axes{};  // across, across and along
 };
 
 Cylinder cylinder_of(const Outline& outline) {
-  const double x = (outline.low[0] + outline.high[0]) / 2, y = (outline.low[1] + outline.high[1]) / 2;
-  return {{x, y, outline.low[2]}, {x, y, outline.high[2]}, (outline.high[0] - outline.low[0]) / 2};
+  Cylinder cylinder{.radius = (outline.high[0] - outline.low[0]) / 2, .axes = {0, 1, 2}};
+  if (outline.shape == Outline::Shape::disc) cylinder.axes = {2, 0, 1};
+  for (std::size_t k = 0; k < 3; ++k) cylinder.low[k] = cylinder.high[k] = (outline.low[k] + outline.high[k]) / 2;
+  const std::size_t along = cylinder.axes[2];
+  cylinder.low[along] = outline.low[along];
+  cylinder.high[along] = outline.high[along];
+  return cylinder;
 }
 
 Point rim(const Cylinder& cylinder, const Point& end, double angle) {
-  return {end[0] + cylinder.radius * std::cos(angle), end[1] + cylinder.radius * std::sin(angle), end[2]};
+  Point at = end;
+  at[cylinder.axes[0]] += cylinder.radius * std::cos(angle);
+  at[cylinder.axes[1]] += cylinder.radius * std::sin(angle);
+  return at;
 }
 
 constexpr int rim_steps = 180;
@@ -204,11 +217,13 @@ struct Edge {
 
 std::vector<Edge> cylinder_edges(const Outline& outline, const View& view) {
   const Cylinder cylinder = cylinder_of(outline);
-  const double facing = std::atan2(view.back[1], view.back[0]);  // the side that looks at the eye
-  const bool from_end = std::hypot(view.back[0], view.back[1]) < 1e-9;
+  const auto [u, v, along] = cylinder.axes;
+  const double facing = std::atan2(view.back[v], view.back[u]);  // the side that looks at the eye
+  const bool from_end = std::hypot(view.back[u], view.back[v]) < 1e-9;
   std::vector<Edge> edges;
   for (const Point& end : {cylinder.low, cylinder.high}) {
-    const bool end_seen = (end[2] == cylinder.high[2]) == (view.back[2] > 0) && std::abs(view.back[2]) > 1e-9;
+    const bool end_seen =
+        (end[along] == cylinder.high[along]) == (view.back[along] > 0) && std::abs(view.back[along]) > 1e-9;
     edges.push_back({arc(cylinder, end, facing - pi / 2, facing + pi / 2), false});
     edges.push_back({arc(cylinder, end, facing + pi / 2, facing + 3 * pi / 2), !end_seen && !from_end});
   }
@@ -239,8 +254,8 @@ std::vector<Edge> box_edges(const Outline& outline, const View& view) {
 }
 
 void add_outline_edges(Triangles& out, const Scene& scene, const View& view) {
-  const auto edges = scene.outline.shape == Outline::Shape::cylinder ? cylinder_edges(scene.outline, view)
-                                                                     : box_edges(scene.outline, view);
+  const auto edges =
+      is_round(scene.outline) ? cylinder_edges(scene.outline, view) : box_edges(scene.outline, view);
   const Colour seen = shade(scene.outline.colour, 0.55);
   for (const Edge& edge : edges) {
     const Polyline style{edge.points, edge.hidden ? scene.outline.colour : seen, edge.hidden ? 0.7 : 1.0,
@@ -253,7 +268,7 @@ using Quad = std::array<Point, 4>;
 
 std::vector<Quad> outline_quads(const Outline& outline) {
   std::vector<Quad> quads;
-  if (outline.shape == Outline::Shape::cylinder) {
+  if (is_round(outline)) {
     const Cylinder c = cylinder_of(outline);
     for (int i = 0; i < rim_steps; ++i) {
       const double a = 2 * pi * i / rim_steps, b = 2 * pi * (i + 1) / rim_steps;
@@ -410,8 +425,8 @@ std::vector<FlatShape> flat_shapes(const Scene& scene, const View& view) {
   }
   for (const auto& line : scene.lines) add_line(line, 0.5);
   if (scene.outline.shape != Outline::Shape::none) {
-    const auto edges = scene.outline.shape == Outline::Shape::cylinder ? cylinder_edges(scene.outline, view)
-                                                                       : box_edges(scene.outline, view);
+    const auto edges =
+        is_round(scene.outline) ? cylinder_edges(scene.outline, view) : box_edges(scene.outline, view);
     for (const Edge& edge : edges) {
       const double beyond = edge.hidden ? -view.over_z : view.over_z;  // hidden ones behind all, others before all
       add_line({edge.points, edge.hidden ? scene.outline.colour : shade(scene.outline.colour, 0.55),

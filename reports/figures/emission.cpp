@@ -53,7 +53,7 @@ double at_time(const dem::Table& history, std::string_view column, double time) 
 render::Chart activity_chart(const Emission& e) {
   const dem::Table& history = e.looks.record->table("history");
   render::Chart chart;
-  chart.x.title = "Strain of the ends (%)";
+  chart.x.title = e.strain_title;
   chart.left.title = "Number so far";
   chart.left.low = 0;
   // The peak of the stress, on the same axis: the stress itself has a scale of its own.
@@ -95,7 +95,7 @@ render::Chart activity_chart(const Emission& e) {
 render::Chart rate_chart(const std::vector<Emission>& all) {
   constexpr int steps = 20;
   render::Chart chart;
-  chart.x.title = "Axial stress over its peak (%)";
+  chart.x.title = "Stress over its peak (%)";
   chart.left.title = "Cracks per 0.01 % of strain";
   chart.left.logarithmic = true;
   chart.x.low = 0;
@@ -380,6 +380,7 @@ std::optional<Emission> emission_of(const SeriesCase& item, const Emitter& of) {
                  .own = {},
                  .diameter = of.diameter,
                  .strain = of.strain,
+                 .strain_title = of.strain_title,
                  .outline = of.outline};
   if (found.hits.all.empty()) return std::nullopt;
   found.window.length = of.window * of.diameter;
@@ -396,10 +397,13 @@ void add_emission(FigureContent& content, std::vector<Emission> all) {
   if (all.empty()) return;
   fit_alike(all);
   const Emission& base = all.front();
-  const std::string aside = base.strain == "platen_strain" ? ", not of the gauge" : "";
+  const bool of_ends = base.strain_title == Emitter{}.strain_title;
+  const std::string against = !of_ends                         ? "the displacement of the load"
+                              : base.strain == "platen_strain" ? "the strain of the ends, not of the gauge"
+                                                               : "the strain of the ends";
   content.panels.push_back(
       {.id = "activity",
-       .caption = "Cracks and events against the strain of the ends" + aside + ": " + base.looks.label + ".",
+       .caption = "Cracks and events against " + against + ": " + base.looks.label + ".",
        .alt = fmt::format("{} cracks are {} events.", base.hits.all.size(), base.events.size()),
        .content = activity_chart(base),
        .per_row = 2});
@@ -444,7 +448,10 @@ void add_emission(FigureContent& content, std::vector<Emission> all) {
        .alt = "",
        .content = table_of(all),
        .per_row = 1});
-  const int per_row = all.size() <= 3 ? 3 : 4;
+  const bool wide = std::ranges::any_of(all, [](const Emission& e) {
+    return e.outline.high[0] - e.outline.low[0] > 1.5 * (e.outline.high[2] - e.outline.low[2]);
+  });
+  const int per_row = wide ? 2 : all.size() <= 3 ? 3 : 4;
   double largest = 0;
   for (const Emission& e : all)
     for (const analysis::Event& event : e.events) largest = std::max(largest, event.energy);

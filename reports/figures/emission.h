@@ -22,6 +22,7 @@ struct Emission {
   double heat = 0;          ///< of breaking in the ledger at the last crack, J
   double diameter = 0;      ///< mean of the particles, m
   std::string strain;       ///< column of the history that rises with the loading
+  std::string strain_title;
   render::Outline outline;  ///< of the specimen
   [[nodiscard]] double energy() const;
 };
@@ -32,6 +33,7 @@ struct Emitter {
   double shear_wave = 0;            ///< m/s
   double diameter = 0;              ///< m
   std::string strain;
+  std::string strain_title = "Strain of the ends (%)";
   std::vector<std::string> heat;  ///< columns of the ledger that are heat of breaking
   render::Outline outline;
 };

@@ -9,6 +9,7 @@
 
 #include "engine/analysis/fits.h"
 #include "reports/figures/table.h"
+#include "reports/figures/texture/failed.h"
 #include "reports/figures/texture/parts.h"
 #include "reports/text.h"
 
@@ -19,14 +20,6 @@ constexpr int picture_width = 700;
 
 // Direct over Brazilian tensile strength (Perras & Diederichs 2014): igneous rock, and the range over kinds of rock.
 constexpr double igneous = 0.8, lowest = 0.7, highest = 0.9;
-
-std::vector<SeriesCase> discs(const StudyResult& study) {
-  std::vector<SeriesCase> cases = series_of(of_mineral(study, ""), test_brazilian, parameter::jaw_ratio);
-  for (SeriesCase& item : cases) {
-    item.label = item.value > 0 ? "jaws of " + shortest(item.value) + " R" : "flat platens";
-  }
-  return cases;
-}
 
 // The platens or jaws as lines in the plane of the section.
 void add_platens(render::Scene& scene, const SeriesCase& item) {
@@ -253,7 +246,7 @@ std::size_t first_cracks(const dem::Record& record) {
 FigureContent brazilian_test(const StudyResult& study) {
   FigureContent content;
   if (auto missing = missing_cases(study, test_brazilian)) content.panels.push_back(*missing);
-  const auto cases = discs(study);
+  const auto cases = discs_of(study);
   if (cases.empty()) return content;
   for (const SeriesCase& item : cases) content.panels.push_back(disc_panel(study, item));
   const std::string peaks = by_case(cases, quantity::brazilian_strength, 3);
@@ -293,7 +286,7 @@ FigureContent brazilian_strengths(const StudyResult& study) {
       "sedimentary rock.",
       igneous, highest, lowest);
   add_missing(content, study, {test_brazilian, test_tension});
-  const auto cases = discs(study);
+  const auto cases = discs_of(study);
   if (cases.empty()) return content;
   std::vector<Sample> samples;
   const std::vector<double> tension = tension_of(study);
@@ -318,10 +311,18 @@ FigureContent brazilian_strengths(const StudyResult& study) {
     verdicts.push_back(agreement_within(ratio, lowest, highest));
     said.push_back((ratio.has_interval() ? estimate_text(ratio, 2) : number(ratio.value, 2)) + " with " + item.label);
   }
+  render::Chart chart = strengths_chart(samples);
+  std::vector<LaboratoryPoint> measured;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const bool direct = k == 0 && !tension.empty();
+    measured.push_back({static_cast<double>(k) + 1.24,
+                        study.measured(direct ? "tensile_strength" : "brazilian_strength")});
+  }
+  add_laboratory(chart, measured);
   content.panels.push_back({.id = "strengths",
                             .caption = "Tensile strengths by test.",
                             .alt = "Brazilian strengths of " + by_case(cases, quantity::brazilian_strength, 3) + ".",
-                            .content = strengths_chart(samples)});
+                            .content = std::move(chart)});
   if (!verdicts.empty()) {
     content.panels.push_back({.id = "ratios",
                               .caption = std::string("Direct over Brazilian strength") +
@@ -358,7 +359,7 @@ FigureContent brazilian_cracks(const StudyResult& study) {
   content.statement = "A disc splits along its loaded diameter, and fails first in the middle.";
   content.expected = true;
   if (auto missing = missing_cases(study, test_brazilian)) content.panels.push_back(*missing);
-  const auto cases = discs(study);
+  const auto cases = discs_of(study);
   if (cases.empty()) return content;
   for (const SeriesCase& item : cases) {
     const dem::Record& record = *item.record;

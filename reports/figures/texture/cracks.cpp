@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "engine/analysis/orientation.h"
 #include "reports/figures/table.h"
+#include "reports/figures/texture/failed.h"
 #include "reports/figures/texture/parts.h"
 #include "reports/text.h"
 
@@ -196,6 +198,38 @@ std::string discs_note(double scale) {
   return (scale < 1 ? fmt::format(", drawn at {:.1g} of their diameter", scale) : std::string()) + ".";
 }
 
+// Discs of one scale, so that pictures can be compared.
+void add_clouds(FigureContent& content, const std::vector<SeriesCase>& cases) {
+  double scale = 1;
+  for (const SeriesCase& item : cases) scale = std::min(scale, legible_disc_scale(*item.record));
+  for (const SeriesCase& item : cases) {
+    content.panels.push_back({.id = "discs_" + item.id,
+                              .caption = "All cracks as discs in the transparent specimen" + discs_note(scale),
+                              .alt = crack_alt(*item.record, all_cracks, capital(item.label) + ":"),
+                              .content = transparent_cracks(*item.record, all_cracks, item.label, 480, scale),
+                              .per_row = pictures_per_row(cases)});
+  }
+}
+
+// With one scale of colours. Returns the largest density of each case, 1/mm.
+std::vector<double> add_densities(FigureContent& content, const std::vector<SeriesCase>& cases) {
+  std::vector<CrackDensity> densities;
+  std::vector<double> largest;
+  for (const SeriesCase& item : cases) {
+    densities.push_back(crack_density(*item.record, all_cracks));
+    largest.push_back(densities.back().largest());
+  }
+  const double densest = largest.empty() ? 0 : end_of_bar(std::ranges::max(largest));
+  for (std::size_t i = 0; i < cases.size() && densest > 0; ++i) {
+    content.panels.push_back({.id = "density_" + cases[i].id,
+                              .caption = density_caption,
+                              .alt = density_alt(cases[i].label, densities[i]),
+                              .content = density_picture(*cases[i].record, densities[i], densest, cases[i].label, 480),
+                              .per_row = pictures_per_row(cases)});
+  }
+  return largest;
+}
+
 }  // namespace
 
 FigureContent crack_maps(const StudyResult& study) {
@@ -204,16 +238,8 @@ FigureContent crack_maps(const StudyResult& study) {
   content.rows = {"failure_mode_with_ar"};
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  add_clouds(content, cases);
   const int per_row = cases.size() <= 3 ? 3 : 4;
-  double scale = 1;  // one for all, so that pictures can be compared
-  for (const SeriesCase& item : cases) scale = std::min(scale, legible_disc_scale(*item.record));
-  for (const SeriesCase& item : cases) {
-    content.panels.push_back({.id = "discs_" + item.id,
-                              .caption = "All cracks as discs in the transparent specimen" + discs_note(scale),
-                              .alt = crack_alt(*item.record, all_cracks, "Cracks at " + item.label + ":"),
-                              .content = transparent_cracks(*item.record, all_cracks, item.label, 480, scale),
-                              .per_row = per_row});
-  }
   for (const SeriesCase& item : cases) {
     content.panels.push_back(
         {.id = "section_" + item.id,
@@ -222,20 +248,7 @@ FigureContent crack_maps(const StudyResult& study) {
          .content = section_cracks(study, *item.record, all_cracks, item.label, 480),
          .per_row = per_row});
   }
-  std::vector<CrackDensity> densities;
-  double densest = 0;
-  for (const SeriesCase& item : cases) {
-    densities.push_back(crack_density(*item.record, all_cracks));
-    densest = std::max(densest, densities.back().largest());
-  }
-  densest = end_of_bar(densest);
-  for (std::size_t i = 0; i < cases.size() && densest > 0; ++i) {
-    content.panels.push_back({.id = "density_" + cases[i].id,
-                              .caption = density_caption,
-                              .alt = density_alt(cases[i].label, densities[i]),
-                              .content = density_picture(*cases[i].record, densities[i], densest, cases[i].label, 480),
-                              .per_row = per_row});
-  }
+  (void)add_densities(content, cases);
   std::vector<std::string> totals;
   for (const SeriesCase& item : cases) {
     std::size_t total = 0;
@@ -245,6 +258,29 @@ FigureContent crack_maps(const StudyResult& study) {
   if (!totals.empty()) content.finding = "Cracks at the end of loading: " + listed(totals) + ".";
   if (!totals.empty())
     content.finding += " Their mean angle to the axis is " + by_case(cases, mean_angle, 3, "°") + ".";
+  return content;
+}
+
+FigureContent crack_concentration(const StudyResult& study) {
+  FigureContent content;
+  add_missing_failed(content, study);
+  std::vector<SeriesCase> cases = failed(study);
+  std::erase_if(cases, [](const SeriesCase& item) { return item.record->table("cracks").rows() == 0; });
+  add_clouds(content, cases);
+  const std::vector<double> largest = add_densities(content, cases);
+  std::vector<std::string> said;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const dem::Record& record = *cases[i].record;
+    const auto area = record.table("cracks").real("area"), radius = record.table("particles").real("radius");
+    double sum = 0, solid = 0;
+    for (const double one : area) sum += 1e6 * one;
+    for (const double r : radius) solid += 1e9 * 4.0 / 3 * std::numbers::pi * r * r * r;
+    const double mean = sum * (1 - record.value_or_nan(quantity::porosity)) / solid;
+    if (!(mean > 0) || !(largest[i] > 0)) continue;
+    said.push_back(fmt::format("{}: {} mm²/mm³ at the densest place of the section, {} times the mean of the specimen",
+                               cases[i].label, number(largest[i], 2), number(largest[i] / mean, 2)));
+  }
+  if (!said.empty()) content.finding = capital(joined(said, "; ")) + ".";
   return content;
 }
 

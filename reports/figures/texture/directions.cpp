@@ -6,6 +6,7 @@
 
 #include "engine/analysis/directions.h"
 #include "reports/figures/table.h"
+#include "reports/figures/texture/failed.h"
 #include "reports/figures/texture/nets.h"
 #include "reports/figures/texture/parts.h"
 #include "reports/text.h"
@@ -20,7 +21,6 @@ struct Found {
   std::string label;
   analysis::Poles poles;
   double area = 0;       // mm^2
-  bool is_case = false;  // of the swept parameter, and not a class or another test
   std::optional<analysis::Maximum> maximum;
 };
 
@@ -61,9 +61,9 @@ std::vector<std::string> row_of(const Found& found) {
 }
 
 std::string words_of(const Found& found) {
-  if (!found.maximum) return fmt::format("too few poles ({}) in {}", found.poles.weight.size(), found.label);
-  return fmt::format("{} times uniform {} {} (plane {})", number(found.maximum->times_uniform, 2),
-                     found.is_case ? "at" : "in", found.label, plane_words(*found.maximum));
+  if (!found.maximum) return fmt::format("{}: too few poles ({})", found.label, found.poles.weight.size());
+  return fmt::format("{}: {} times uniform, at the pole of a plane {}", found.label,
+                     number(found.maximum->times_uniform, 2), plane_words(*found.maximum));
 }
 
 std::string all_words(const std::vector<Found>& found) {
@@ -89,29 +89,25 @@ double largest_of(const std::vector<Found>& found) {
 
 FigureContent crack_directions(const StudyResult& study) {
   FigureContent content;
-  const auto pressed = swept_by_test(study, test_compression), pulled = swept_by_test(study, test_tension);
-  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  add_missing_failed(content, study);
+  const std::vector<SeriesCase> cases = failed(study);
   std::vector<Found> found;
-  for (const SeriesCase& item : pressed) {
-    found.push_back(found_in(*item.record, item.label));
-    found.back().is_case = at_case(item).starts_with("at ");
-  }
-  if (!pulled.empty()) found.push_back(found_in(*pulled.front().record, tension_label(study, pulled.front())));
+  for (const SeriesCase& item : cases) found.push_back(found_in(*item.record, item.label));
   std::erase_if(found, [](const Found& one) { return one.poles.weight.empty(); });
   if (found.empty()) return content;
+  const SeriesCase& base = cases.front();
   std::vector<Found> classes;
-  if (!pressed.empty()) {
-    for (const CrackClass& one : crack_classes())
-      classes.push_back(found_in(*pressed.front().record, std::string(one.name), one.place, one.mode));
-    std::erase_if(classes, [](const Found& one) { return one.poles.weight.empty(); });
-  }
+  for (const CrackClass& one : crack_classes())
+    classes.push_back(found_in(*base.record, std::string(one.name), one.place, one.mode));
+  std::erase_if(classes, [](const Found& one) { return one.poles.weight.empty(); });
   const double largest = std::max(largest_of(found), largest_of(classes));  // one scale of greys for all nets
   const std::string shared = found.size() + classes.size() > 1 ? " The nets of this figure share one scale." : "";
   content.panels.push_back(
       {.id = "nets",
        .caption = "Poles of all cracks on the lower hemisphere, equal areas, weighted by crack area (one pole per "
-                  "contact and mode): density by the kernel of Kamb and Vollmer; the load is along z, "
-                  "the middle of the net. Below it: dip and dip direction of the plane of the maximum, "
+                  "contact and mode): density by the kernel of Kamb and Vollmer; " +
+                  std::string(load_words(*base.record)) +
+                  ", the middle of the net. Below it: dip and dip direction of the plane of the maximum, "
                   "counter-clockwise from x." +
                   std::string(found.size() > 1 ? shared : ""),
        .alt = all_words(found) + ".",
@@ -121,7 +117,7 @@ FigureContent crack_directions(const StudyResult& study) {
   if (!classes.empty()) {
     content.panels.push_back(
         {.id = "classes",
-         .caption = "The same by class of crack: " + pressed.front().label + "." + (found.size() > 1 ? "" : shared),
+         .caption = "The same by class of crack: " + base.label + "." + (found.size() > 1 ? "" : shared),
          .alt = all_words(classes) + ".",
          .content = nets_of(classes, largest),
          .per_row = classes.size() > 1 ? 1 : 2,
@@ -146,7 +142,7 @@ FigureContent crack_directions(const StudyResult& study) {
                   {}};
   for (const Found& one : found) table.rows.push_back(row_of(one));
   for (Found& one : classes) {
-    one.label = pressed.front().label + ", " + one.label;
+    one.label = base.label + ", " + one.label;
     table.rows.push_back(row_of(one));
   }
   content.panels.push_back({.id = "maxima",
@@ -154,7 +150,7 @@ FigureContent crack_directions(const StudyResult& study) {
                             .alt = "",
                             .content = table,
                             .per_row = 1});
-  content.finding = "Largest density of poles: " + all_words(found) + ".";
+  content.finding = "Largest density of poles of cracks. " + capital(all_words(found)) + ".";
   return content;
 }
 

@@ -6,27 +6,20 @@
 #include "engine/analysis/goodness.h"
 #include "reports/figures/fragments.h"
 #include "reports/figures/table.h"
+#include "reports/figures/texture/failed.h"
 #include "reports/figures/texture/parts.h"
 
 namespace reports::texture {
 
 FigureContent fragments(const StudyResult& study) {
   FigureContent content;
-  const auto pressed = swept_by_test(study, test_compression), pulled = swept_by_test(study, test_tension);
-  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  add_missing_failed(content, study);
+  const std::vector<SeriesCase> specimens = failed(study);
   std::vector<Broken> cases;
-  for (const SeriesCase& item : pressed) cases.push_back(broken_of(*item.record, item));
-  if (!pulled.empty()) {
-    SeriesCase looks = pulled.front();
-    looks.label = tension_label(study, pulled.front());
-    looks.id = "tension";
-    looks.colour = {0.35, 0.35, 0.35};
-    looks.line = render::line_style(cases.size());
-    cases.push_back(broken_of(*looks.record, looks));
-  }
+  for (const SeriesCase& item : specimens) cases.push_back(broken_of(*item.record, item));
   if (cases.empty()) return content;
   constexpr double apart = 0.3;
-  const int per_row = cases.size() <= 3 ? 3 : 4;
+  const int per_row = pictures_per_row(specimens);
   std::vector<Picture> pictures;
   for (const Broken& broken : cases)
     pictures.push_back(fragments_picture(broken, apart, frame_of(size_of(*broken.record)), 480));
@@ -45,6 +38,8 @@ FigureContent fragments(const StudyResult& study) {
     if (const auto law = size_law(broken); law && law->holds())
       laws.push_back(broken.label + " " + estimate_text(law->exponent, 3));
   }
+  content.finding = capital(joined(said, "; ")) + ".";
+  if (std::ranges::all_of(cases, [](const Broken& b) { return b.parts.all.size() == 1; })) return content;
   content.panels.push_back({.id = "numbers",
                             .caption = std::string("Parts by their number of particles") +
                                        (laws.empty() ? "."
@@ -74,7 +69,6 @@ FigureContent fragments(const StudyResult& study) {
        .alt = "",
        .content = fragments_table(cases),
        .per_row = 1});
-  content.finding = capital(joined(said, "; ")) + ".";
   return content;
 }
 

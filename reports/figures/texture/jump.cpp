@@ -6,6 +6,7 @@
 #include "engine/analysis/jump.h"
 #include "reports/figures/table.h"
 #include "reports/figures/texture/band.h"
+#include "reports/figures/texture/failed.h"
 #include "reports/figures/texture/parts.h"
 #include "reports/text.h"
 
@@ -95,16 +96,11 @@ std::string jump_words(const Across& across) {
 
 FigureContent displacement_jump(const StudyResult& study) {
   FigureContent content;
-  const auto pressed = swept_by_test(study, test_compression), pulled = swept_by_test(study, test_tension);
-  if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
+  add_missing_failed(content, study);
   std::vector<Across> all;
-  for (const SeriesCase& item : pressed)
+  for (const SeriesCase& item : failed(study)) {
+    if (!is_of_cylinder(*item.record)) continue;
     if (auto found = across_of(item)) all.push_back(std::move(*found));
-  if (!pulled.empty()) {
-    SeriesCase looks = pulled.front();
-    looks.label = tension_label(study, pulled.front());
-    looks.id = "tension";
-    if (auto found = across_of(looks)) all.push_back(std::move(*found));
   }
   if (all.empty()) return content;
   // The band and a layer beyond each of its faces, all across the specimen.

@@ -25,18 +25,6 @@ Published published_of(const StudyResult& study, std::string mineral) {
   return {value("young_modulus"), value("tensile_strength"), value("ucs"), value("m")};
 }
 
-std::vector<std::string> minerals_tested(const StudyResult& study) {
-  std::vector<std::string> found;
-  for (const CaseResult& one : study.cases) {
-    if (!one.record) continue;
-    const auto parameter = std::ranges::find(one.record->parameters, "mineral", [](const auto& p) { return p.first; });
-    if (parameter == one.record->parameters.end()) continue;
-    const auto* name = std::get_if<std::string>(&parameter->second);
-    if (name && !name->empty() && std::ranges::find(found, *name) == found.end()) found.push_back(*name);
-  }
-  return found;
-}
-
 Spread of_first(const std::vector<SeriesCase>& cases, const ValueOf& value) {
   return cases.empty() ? Spread{.mean = std::nan("")} : analysis::spread(cases.front(), value);
 }

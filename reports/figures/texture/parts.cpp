@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "engine/analysis/ending.h"
+#include "reports/figures/texture/failed.h"
 #include "reports/text.h"
 
 namespace reports::texture {
@@ -286,12 +287,10 @@ std::array<std::size_t, 4> crack_numbers(const dem::Record& record, std::size_t 
 Picture transparent_cracks(const dem::Record& record, std::size_t count, const std::string& label, int width,
                            double scale) {
   const Size size = size_of(record);
-  const double half = 0.5 * size.diameter;
   render::Scene scene;
   scene.axes = true;
   scene.discs = crack_discs(record, count, scale);
-  scene.outline = {
-      render::Outline::Shape::cylinder, {-half, -half, size.z_low}, {half, half, size.z_low + size.height}};
+  scene.outline = outline_of(record);
   scene.camera.frame = frame_of(size);
   scene.width = width;
   scene.height = static_cast<int>(std::lround(width * std::max(0.5, size.height / size.diameter)));
@@ -337,12 +336,12 @@ CrackDensity crack_density(const dem::Record& record, std::size_t count) {
   CrackDensity density;
   if (grains.empty() || radius.empty()) return density;
   const double width = std::accumulate(grains.begin(), grains.end(), 0.0) / static_cast<double>(grains.size());
-  double solid = 0;  // volume of the particles; over that of the specimen it is their share everywhere
-  for (const double r : radius) solid += 4.0 / 3 * std::numbers::pi * r * r * r;
-  const double whole = 0.25 * std::numbers::pi * size.diameter * size.diameter * size.height;
+  // The particles fill the same share of the specimen everywhere: as much volume as they stand for, over theirs.
+  const double room = 1 / (1 - record.value_or_nan(quantity::porosity));
 
-  constexpr int across = 56;
-  density.spacing = size.diameter / across;
+  constexpr double finest = 56;  // over the diameter
+  density.spacing = std::min(size.diameter, 2 * size.height) / finest;
+  const int across = static_cast<int>(std::ceil(size.diameter / density.spacing - 1e-9));
   const int up = static_cast<int>(std::ceil(size.height / density.spacing));
   const double reach = 3 * width;
   std::vector<double> area(static_cast<std::size_t>(across * up), 0.0), volume = area;
@@ -372,7 +371,7 @@ CrackDensity crack_density(const dem::Record& record, std::size_t count) {
   for (std::size_t i = 0; i < radius.size(); ++i) {
     const double r = radius[i];
     spread(volume, position[3 * i], position[3 * i + 1], position[3 * i + 2],
-           4.0 / 3 * std::numbers::pi * r * r * r * whole / solid);
+           4.0 / 3 * std::numbers::pi * r * r * r * room);
   }
   for (int k = 0; k < up; ++k) {
     for (int i = 0; i < across; ++i) {
