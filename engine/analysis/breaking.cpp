@@ -36,6 +36,24 @@ std::vector<double> sum_of(const Table& history, std::initializer_list<const cha
   return sum;
 }
 
+std::vector<double> elastic_of(const Table& history) {
+  return sum_of(history, {"elastic_normal", "elastic_shear", "elastic_planes"});
+}
+std::vector<double> breaking_of(const Table& history) {
+  return sum_of(history, {"breaking_heat_normal", "breaking_heat_shear"});
+}
+std::vector<double> heat_of(const Table& history) {
+  return sum_of(history, {"viscous_heat", "breaking_heat_normal", "breaking_heat_shear", "frictional_heat"});
+}
+
+// What of a heat comes between two times, over all of it; 0 where there is none at all.
+double share_between(const Table& history, const std::vector<double>& heat, double from, double to) {
+  if (heat.empty()) return none;
+  const auto time = history.real("time");
+  const double part = heat[row_at(time, to)] - heat[row_at(time, from)];
+  return heat.back() > 0 ? part / heat.back() : 0;
+}
+
 }  // namespace
 
 int pieces_of(const Record& record, double least) {
@@ -143,7 +161,7 @@ double kinetic_over_work(const Record& record, double time) {
 
 double viscous_share(const Record& record) {
   const Table& history = record.table("history");
-  const auto heat = sum_of(history, {"viscous_heat", "breaking_heat_normal", "breaking_heat_shear", "frictional_heat"});
+  const auto heat = heat_of(history);
   return heat.empty() ? none : history.real("viscous_heat").back() / heat.back();
 }
 
@@ -159,10 +177,19 @@ double straightness(const Record& record, double wanted) {
 
 double elastic_left(const Record& record, double time) {
   const Table& history = record.table("history");
-  const auto elastic = sum_of(history, {"elastic_normal", "elastic_shear", "elastic_planes"});
+  const auto elastic = elastic_of(history);
   if (elastic.empty()) return none;
   const std::size_t from = row_at(history.real("time"), time);
   return *std::min_element(elastic.begin() + static_cast<std::ptrdiff_t>(from), elastic.end()) / elastic[from];
+}
+
+double time_of_least_elastic(const Record& record, double from) {
+  const Table& history = record.table("history");
+  const auto elastic = elastic_of(history);
+  if (elastic.empty()) return none;
+  const auto time = history.real("time");
+  const auto begin = elastic.begin() + static_cast<std::ptrdiff_t>(row_at(time, from));
+  return time[static_cast<std::size_t>(std::min_element(begin, elastic.end()) - elastic.begin())];
 }
 
 double kinetic_left(const Record& record, double time) {
@@ -174,9 +201,54 @@ double kinetic_left(const Record& record, double time) {
 
 double breaking_after(const Record& record, double time) {
   const Table& history = record.table("history");
-  const auto heat = sum_of(history, {"breaking_heat_normal", "breaking_heat_shear"});
+  const auto heat = breaking_of(history);
   if (heat.empty()) return none;
   return 1 - heat[row_at(history.real("time"), time)] / heat.back();
+}
+
+double elastic_loss(const Record& record, double from, double to) {
+  const Table& history = record.table("history");
+  const auto elastic = elastic_of(history);
+  if (elastic.empty()) return none;
+  const auto time = history.real("time");
+  return 1 - elastic[row_at(time, to)] / elastic[row_at(time, from)];
+}
+
+double heat_until(const Record& record, double time) {
+  const Table& history = record.table("history");
+  const auto heat = heat_of(history);
+  return heat.empty() ? none : heat[row_at(history.real("time"), time)] / heat.back();
+}
+
+double breaking_between(const Record& record, double from, double to) {
+  const Table& history = record.table("history");
+  return share_between(history, breaking_of(history), from, to);
+}
+
+double shear_breaking_between(const Record& record, double from, double to) {
+  const Table& history = record.table("history");
+  return share_between(history, sum_of(history, {"breaking_heat_shear"}), from, to);
+}
+
+double breaking_over_elastic(const Record& record, double from, double to) {
+  const Table& history = record.table("history");
+  const auto elastic = elastic_of(history), breaking = breaking_of(history);
+  if (elastic.empty()) return none;
+  const auto time = history.real("time");
+  return (breaking[row_at(time, to)] - breaking[row_at(time, from)]) / elastic[row_at(time, from)];
+}
+
+int steps_alike(const Record& record, std::span<const double> times) {
+  const Table& history = record.table("history");
+  const auto time = history.real("time"), stress = history.real("axial_stress");
+  const auto elastic = elastic_of(history);
+  if (elastic.empty()) return 0;
+  int alike = 0;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    const std::size_t from = row_at(time, times[i - 1]), to = row_at(time, times[i]);
+    alike += (stress[to] - stress[from]) * (elastic[to] - elastic[from]) > 0;
+  }
+  return alike;
 }
 
 }  // namespace dem::analysis

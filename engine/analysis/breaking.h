@@ -1,6 +1,8 @@
 #pragma once
 // How a block of the lattice comes apart, read off its record: pieces, where the first bonds break, how the stress falls on
 // the way to the peak, what energy is left.
+#include <span>
+
 #include "engine/core/record.h"
 
 namespace dem::analysis {
@@ -36,9 +38,23 @@ double straightness(const Record& record, double time);
 
 /// Least elastic energy after a time over that at the time.
 double elastic_left(const Record& record, double time);
+/// The time at which it is least.
+double time_of_least_elastic(const Record& record, double from);
 /// Kinetic energy at the end of the record over its largest after a time.
 double kinetic_left(const Record& record, double time);
 /// Breaking heat after a time over all of it.
 double breaking_after(const Record& record, double time);
+
+/// Elastic energy lost between two times over that at the first.
+double elastic_loss(const Record& record, double from, double to);
+/// Heat of all kinds until a time over that at the end.
+double heat_until(const Record& record, double time);
+/// Breaking heat between two times over that at the end, of both springs; the same of the shear springs alone.
+double breaking_between(const Record& record, double from, double to);
+double shear_breaking_between(const Record& record, double from, double to);
+/// Breaking heat between two times over the elastic energy at the first.
+double breaking_over_elastic(const Record& record, double from, double to);
+/// Of the steps between neighbouring times, how many take stress and elastic energy the same way.
+int steps_alike(const Record& record, std::span<const double> times);
 
 }  // namespace dem::analysis

@@ -75,6 +75,8 @@ double parted(const Record& record, const char* id) {
   if (pieces_of(record) < 2) throw std::out_of_range("the block stays in one part");
   return 100 * result_of(record, id);
 }
+double c1(const Record& record) { return result_of(record, "sliding_start"); }
+double c2(const Record& record) { return c1(record) + result_of(record, "sliding_duration"); }
 Fall a1_of(const Record& record) { return fall_at(record, result_of(record, "a1_time")); }
 constexpr std::array lattice{
     Reading{"parting_time", [](const Record& r) { return parted(r, "failure_time"); }},  // in 10⁻² s
@@ -96,9 +98,31 @@ constexpr std::array lattice{
     Reading{"straightness_to_a1", [](const Record& r) { return straightness(r, a1_of(r).time); }},
     Reading{"elastic_left", [](const Record& r) { return 100 * elastic_left(r, result_of(r, "failure_time")); }},
     Reading{"kinetic_left", [](const Record& r) { return 100 * kinetic_left(r, result_of(r, "failure_time")); }},
-    Reading{"breaking_after_sliding",
+    Reading{"breaking_after_sliding", [](const Record& r) { return 100 * breaking_after(r, c2(r)); }},
+    Reading{"breaking_while_sliding", [](const Record& r) { return 100 * breaking_between(r, c1(r), c2(r)); }},
+    Reading{"shear_heat_while_sliding", [](const Record& r) { return 100 * shear_breaking_between(r, c1(r), c2(r)); }},
+    Reading{"elastic_loss_at_a1",
             [](const Record& r) {
-              return 100 * breaking_after(r, result_of(r, "sliding_start") + result_of(r, "sliding_duration"));
+              const Fall fall = a1_of(r);
+              return 100 * elastic_loss(r, fall.time, fall.low_time);
+            }},
+    Reading{"heat_before_a1", [](const Record& r) { return 100 * heat_until(r, a1_of(r).time); }},
+    Reading{"heat_at_a1",
+            [](const Record& r) {
+              const Fall fall = a1_of(r);
+              return 100 * (heat_until(r, fall.low_time) - heat_until(r, fall.time));
+            }},
+    Reading{"elastic_as_stress",  // from the origin to A1, the end of its drop, A2, A3
+            [](const Record& r) {
+              const Fall fall = a1_of(r);
+              const double peak = peak_time(r);
+              const std::array times{0.0, fall.time, fall.low_time, peak, time_of_least_elastic(r, peak)};
+              return static_cast<double>(steps_alike(r, times));
+            }},
+    Reading{"breaking_at_parting",
+            [](const Record& r) {
+              const double d1 = result_of(r, "failure_time");
+              return 100 * breaking_over_elastic(r, d1, d1 + result_of(r, "crack_duration"));
             }},
 };
 

@@ -63,8 +63,9 @@ void check_kind(const Json& entry, const std::string& id) {
 
 void check_role(const Json& entry, const std::string& id) {
   const int roles = static_cast<int>(entry.contains("fitted")) + static_cast<int>(entry.contains("theory")) +
-                    static_cast<int>(entry.contains("follows")) + static_cast<int>(entry.contains("stated"));
-  if (roles > 1) wrong(id, "one of fitted, theory, follows and stated at most");
+                    static_cast<int>(entry.contains("follows")) +
+                    static_cast<int>(entry.contains("stated") && !entry.contains("fitted"));
+  if (roles > 1) wrong(id, "one of fitted, theory, follows and stated at most, but stated beside fitted");
   if (entry.contains("stated") && entry.contains("derived")) wrong(id, "a statement in words is not derived");
   const std::array<std::pair<const char*, const char*>, 4> texts{
       {{"fitted", "why"}, {"theory", "why"}, {"stated", "the paper’s words"}, {"derived", "from what"}}};

@@ -16,7 +16,8 @@
 //   "fitted": "why"          a choice of the program was fitted to it
 //   "theory": "why"          a formula beside a formula
 //   "stated": "mainly"       the paper has these words and no number: they stand under "Published", and `published` with its
-//                            tolerance is how this program reads them
+//                            tolerance is how this program reads them; may stand beside "fitted", for a limit that was set
+//                            when ours was known
 //   "derived": "206.8 / 9.8" computed here from what the paper prints; may stand beside "follows" or "theory"
 // What is stated or derived is no published number: figures do not draw it.
 // "scale": "high" if the number belongs to another scale than its paper's (it is shown at that one only), "any" if the scale

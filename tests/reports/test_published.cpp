@@ -437,6 +437,10 @@ TEST_CASE_FIXTURE(Fixture, "what a paper says in words or what follows from its 
   CHECK(stated.verdict == Verdict::met);
   const Comparison derived = one(near + R"(, "derived": "400 / 2")");
   CHECK(derived.role == reports::Role::derived);
+  // A limit that was set when ours was known: the words stand there, and the row counts as fitted.
+  const Comparison fitted = one(near + R"(, "stated": "mainly", "fitted": "why")");
+  CHECK(fitted.role == reports::Role::fitted);
+  CHECK(fitted.stated == "mainly");
   const auto counts = reports::Comparisons{"P", "draft", {stated, derived}}.tally();
   CHECK(counts.numbers() == 0);
   CHECK(counts.stated == 1);
@@ -468,6 +472,7 @@ TEST_CASE_FIXTURE(Fixture, "an entry that says what it cannot mean is refused by
   refuses(good + R"(, "stated": "")", "the paper’s words");
   refuses(good + R"(, "stated": "mainly", "theory": "b")", "one of");
   refuses(good + R"(, "stated": "mainly", "derived": "b")", "not derived");
+  refuses(good + R"(, "stated": "mainly", "follows": ["a"], "fitted": "b")", "one of");
   refuses(good + R"(, "scale": "huge")", "huge");
   refuses(good + R"(, "readings": [{"id": "x", "reading": "r", "of": {}}])", "twice");
   refuses(value("0", R"({"relative": 0.1})"), "relative to nothing");

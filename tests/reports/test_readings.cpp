@@ -1,6 +1,7 @@
 // What verdicts read off the tables of a record: cracks by class, mineral and part of the test; how a block comes apart.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -154,6 +155,28 @@ TEST_CASE("kinetic energy and viscous heat are shares of one whole in every test
   CHECK(dem::analysis::kinetic_over_work(r, 3) == doctest::Approx(0.2));
   CHECK(dem::analysis::kinetic_over_work(r, 5) == doctest::Approx(0.1));
   CHECK(dem::analysis::viscous_share(r) == doctest::Approx(0.5));
+}
+
+TEST_CASE("what is lost and generated between two moments, and whether the elastic energy goes with the stress") {
+  Record r = block();
+  Table& h = r.tables.back();
+  h.add("viscous_heat", "J", Reals{0, 0, 0, 0, 1, 5});
+  h.add("frictional_heat", "J", Reals{0, 0, 0, 0, 0, 1});
+  using namespace dem::analysis;
+  CHECK(elastic_loss(r, 2, 3) == doctest::Approx(0.25));
+  CHECK(elastic_loss(r, 3, 4) < 0);
+  CHECK(time_of_least_elastic(r, 2) == 5);
+  CHECK(heat_until(r, 2) == 0);
+  CHECK(heat_until(r, 4) == doctest::Approx(0.4));
+  CHECK(breaking_between(r, 2, 4) == doctest::Approx(0.75));
+  CHECK(shear_breaking_between(r, 2, 4) == 0);  // there is none at all
+  CHECK(breaking_over_elastic(r, 2, 4) == doctest::Approx(0.75));
+  const std::array path{0.0, 2.0, 3.0, 4.0, 5.0};
+  CHECK(steps_alike(r, path) == 4);
+  for (dem::Column& column : r.tables.back().columns) {
+    if (column.name == "elastic_normal") std::get<Reals>(column.values)[3] = 5;  // stress falls there
+  }
+  CHECK(steps_alike(r, path) == 3);
 }
 
 TEST_CASE("where grains grow between walls that are held, growth is not called strain") {

@@ -172,8 +172,12 @@ FigureContent stress_strain(const StudyResult& study) {
   FigureContent content;
   content.statement =
       "Stress rises linearly to A₁, where opening cracks form and stress falls; it rises again to the strength A₂, "
-      "where the block fails in sliding mode. Some bonds at the boundary fail before C_open is reached.";
-  content.rows = {"opening_before_sliding", "opening_below_theory", "drop_at_a1"};
+      "where the block fails in sliding mode. Some bonds at the boundary fail before C_open is reached, and stress "
+      "falls a "
+      "little before A₁ and before A₂.";
+  content.rows = {"linear_to_a1",           "a1_at_theory",         "drop_at_a1",
+                  "opening_before_sliding", "opening_below_theory", "opened_below_theory",
+                  "fall_before_a1",         "fall_before_a2",       "compression_from_boundary"};
   if (auto missing = missing_cases(study, "compression")) content.panels.push_back(*missing);
   const dem::Record* r = main_record(study, "compression");
   if (!r) return content;
@@ -237,7 +241,8 @@ FigureContent energy_compression(const StudyResult& study) {
       "Elastic energy follows the stress, falls a little at A₁ and almost to zero between A₂ and A₃; mechanical energy "
       "and heat together always equal the work. Failure takes about 10⁻⁴ s, with much less kinetic than elastic energy "
       "(inset).";
-  content.rows = {"elastic_left", "failure_duration"};
+  content.rows = {"elastic_as_stress",   "elastic_loss_at_a1", "elastic_left",
+                  "balance_compression", "failure_duration",   "kinetic_share_compression"};
   const dem::Record* r = main_record(study, "compression");
   if (!r) return content;
   if (!has_failure(*r)) {
@@ -290,7 +295,8 @@ FigureContent energy_tension(const StudyResult& study) {
   content.statement =
       "The block breaks in two at 1.072 × 10⁻² s (B₁): elastic energy becomes breaking heat and kinetic energy. The "
       "kinetic energy, at most 16.2 % of the total energy, has become viscous heat by B₂.";
-  content.rows = {"failure_time", "kinetic_share"};
+  content.rows = {"failure_time",        "pieces",        "elastic_left_tension",
+                  "breaking_at_parting", "kinetic_share", "kinetic_left_tension"};
   if (auto missing = missing_cases(study, "tension")) content.panels.push_back(*missing);
   std::vector<std::string> said;
   for (const dem::Record* r : records_of(study, "tension")) {
@@ -350,8 +356,9 @@ FigureContent heat_compression(const StudyResult& study) {
   FigureContent content;
   content.statement =
       "At failure in compression (C₁ to C₂) the breaking heat of the normal springs does not change, while that of the "
-      "shear springs rises step by step; frictional heat still rises after C₂.";
-  content.rows = {"normal_heat_while_sliding"};
+      "shear springs rises step by step. After C₂ breaking heat is constant; frictional heat still rises.";
+  content.rows = {"normal_heat_while_sliding", "shear_heat_while_sliding", "breaking_while_sliding",
+                  "breaking_heat_after_c2", "frictional_heat_after_c2"};
   const dem::Record* r = main_record(study, "compression");
   if (!r) return content;
   if (!has_failure(*r)) {
@@ -384,7 +391,7 @@ FigureContent heat_tension(const StudyResult& study) {
   content.statement =
       "Breaking heat rises from D₁ to D₂, 2.83 × 10⁻⁶ s later; viscous heat still rises after D₂, and its share of the "
       "heat is greater than in compression. Frictional heat is always zero.";
-  content.rows = {"crack_duration", "viscous_heat_after", "frictional_heat"};
+  content.rows = {"crack_duration", "viscous_heat_after", "viscous_tension_over_compression", "frictional_heat"};
   std::vector<std::string> said, durations, later, friction, without;
   for (const dem::Record* r : records_of(study, "tension")) {
     if (!has_failure(*r)) {

@@ -186,7 +186,9 @@ FigureContent block(const StudyResult& study) {
   content.statement =
       "Identical elements in hexagonal close packing stand between two smooth planes; bonded elements are joined by a "
       "normal and a shear spring, which can break. Blocks of 2 to 30 elements along y have 4 to 37 681 elements.";
-  content.rows = {"block_elements_4", "block_elements_8", "block_elements_12"};
+  content.rows = {"block_elements_2",  "block_elements_4",  "block_elements_6",  "block_elements_8",
+                  "block_elements_10", "block_elements_12", "block_elements_16", "block_elements_20",
+                  "block_elements_24", "block_elements_30"};
   const dem::Record* record = largest_record(study, 2500);
   if (!record) record = any_record(study);
   if (!record) return content;
