@@ -367,13 +367,14 @@ FigureContent heat_compression(const StudyResult& study) {
   }
   const CompressionMarks m = marks_of(*r);
   const double span = std::max(m.c2 - m.c1, 5e-6);
+  const double to = std::min(m.c2 + 1.5 * span, r->table("history").real("time").back());
   content.panels.push_back(
       {.id = "",
-       .caption = "Compression: heat at failure." + heat_beyond(*r, m.c2 + 1.5 * span, m.c1),
+       .caption = "Compression: heat at failure." + heat_beyond(*r, to, m.c1),
        .alt = fmt::format("From C1 to C2 {} µs pass; {} % of the breaking heat in between is of normal springs.",
                           number(1e6 * (m.c2 - m.c1), 3),
                           number(100 * r->value_or_nan(quantity::normal_share_of_sliding_heat), 2)),
-       .content = heats(*r, m.c1 - 0.3 * span, m.c2 + 1.5 * span, m.c1, {{m.c1, "C₁"}, {m.c2, "C₂"}},
+       .content = heats(*r, m.c1 - 0.3 * span, to, m.c1, {{m.c1, "C₁"}, {m.c2, "C₂"}},
                         study.published_value("failure_duration")),
        .per_row = 1});
   content.finding = fmt::format(
