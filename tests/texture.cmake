@@ -5,5 +5,5 @@ dem_test(test_texture_loading SOURCES physics/test_texture_loading.cpp LIBRARIES
 dem_test(test_texture_rate SOURCES physics/test_texture_rate.cpp LIBRARIES dem_texture LABELS long)
 dem_test(test_texture_brazilian SOURCES physics/test_texture_brazilian.cpp LIBRARIES dem_texture)
 dem_test(test_texture_bending SOURCES physics/test_texture_bending.cpp LIBRARIES dem_texture)
-dem_test(test_texture_trade SOURCES physics/test_texture_trade.cpp LIBRARIES dem_texture)
+dem_test(test_texture_trade SOURCES physics/test_texture_trade.cpp LIBRARIES dem_texture dem_analysis)
 dem_test(test_micro_parameters SOURCES unit/test_micro_parameters.cpp LIBRARIES dem_texture)

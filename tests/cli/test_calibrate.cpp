@@ -255,6 +255,26 @@ TEST_CASE("a range that excludes the answer, and a test that gives nothing, end 
   CHECK(has(nothing.err, "Start from other values"));
 }
 
+TEST_CASE("a rock moves its minerals together, then its boundaries, and tells when its budget is used up") {
+  const test::Scratch scratch;
+  const test::Outcome outcome = test::run_program(
+      scratch.path(), {"calibrate", DEM_SOURCE_DIR "/scenarios/my_rock.toml", "--scale", "smoke", "--format", "html",
+                       "--set", "specimen.diameter=\"6.25 mm\"", "--set", "specimen.height=\"12.5 mm\"", "--set",
+                       "calibrate.budget=10", "--set", "calibrate.seeds=3"});
+  INFO(outcome.err);
+  CHECK(outcome.code == 1);
+  CHECK(has(outcome.err, "The budget of 20 tests is used up: raise calibrate.budget"));
+  CHECK(has(outcome.out + outcome.err, "the rock, boundaries, trial 1"));
+  const Json found =
+      Json::parse(dem::read_file(scratch / "out/my_rock.smoke/calibration/calibration.json")).at("values");
+  // One factor for all minerals: 50 and 58 GPa, 180 and 290 MPa at the start. The factor of the boundaries was 0.25.
+  const auto value = [&](const char* key) { return found.at(key).get<double>(); };
+  CHECK(value("mineral[1].modulus") / value("mineral[0].modulus") == doctest::Approx(58.0 / 50).epsilon(2e-3));
+  CHECK(value("mineral[1].cohesion") / value("mineral[0].cohesion") == doctest::Approx(290.0 / 180).epsilon(2e-3));
+  CHECK(value("mineral[0].modulus") == value("mineral[0].bond_modulus"));
+  CHECK(value("interaction.tensile_strength") != doctest::Approx(0.25));
+}
+
 TEST_CASE("specimens are not tested under pressure once the peak there is known well enough") {
   const test::Scratch scratch;
   const test::Outcome outcome =

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "engine/analysis/emission.h"
 #include "engine/core/archive.h"
 #include "engine/core/random.h"
 #include "engine/texture/genesis/body.h"
@@ -226,6 +227,24 @@ TEST_CASE("a block in direct shear keeps its normal stress, breaks along the gap
   CHECK(normal == test::near(10e6).epsilon(0.03));
   CHECK(run.value(quantity::energy_residual) < 1e-2);
   CHECK(run.value(quantity::residual_shear) < run.value(quantity::shear_strength));
+  // Acoustic emission: whatever the window, events release what the ledger says of the bonds broken by then.
+  namespace analysis = dem::analysis;
+  const analysis::Hits hits = analysis::hits_of(run.record);
+  REQUIRE(hits.own_energies);
+  REQUIRE(hits.all.size() > 20);
+  const auto after = std::ranges::find_if(h, [&](const HistoryRow& row) { return row.time >= hits.all.back().time; });
+  REQUIRE(after != h.end());
+  const double broken = after->ledger.bond_tension + after->ledger.bond_shear;
+  std::size_t fewest = hits.all.size();
+  for (const double window : {1e-9, 2e-3, 1.0}) {
+    const auto events = analysis::events_of(hits.all, {.length = window, .time = window});
+    double released = 0;
+    for (const analysis::Event& event : events) released += event.energy;
+    CHECK(released == test::near(broken).epsilon(1e-3));
+    CHECK(events.size() <= fewest);
+    fewest = events.size();
+  }
+  CHECK(fewest == 1);
   // From a checkpoint.
   Loading whole(run.specimen, settings, 1);
   for (int k = 0; k < 30; ++k) whole.advance();
