@@ -254,8 +254,7 @@ std::vector<Edge> box_edges(const Outline& outline, const View& view) {
 }
 
 void add_outline_edges(Triangles& out, const Scene& scene, const View& view) {
-  const auto edges =
-      is_round(scene.outline) ? cylinder_edges(scene.outline, view) : box_edges(scene.outline, view);
+  const auto edges = is_round(scene.outline) ? cylinder_edges(scene.outline, view) : box_edges(scene.outline, view);
   const Colour seen = shade(scene.outline.colour, 0.55);
   for (const Edge& edge : edges) {
     const Polyline style{edge.points, edge.hidden ? scene.outline.colour : seen, edge.hidden ? 0.7 : 1.0,
@@ -425,8 +424,7 @@ std::vector<FlatShape> flat_shapes(const Scene& scene, const View& view) {
   }
   for (const auto& line : scene.lines) add_line(line, 0.5);
   if (scene.outline.shape != Outline::Shape::none) {
-    const auto edges =
-        is_round(scene.outline) ? cylinder_edges(scene.outline, view) : box_edges(scene.outline, view);
+    const auto edges = is_round(scene.outline) ? cylinder_edges(scene.outline, view) : box_edges(scene.outline, view);
     for (const Edge& edge : edges) {
       const double beyond = edge.hidden ? -view.over_z : view.over_z;  // hidden ones behind all, others before all
       add_line({edge.points, edge.hidden ? scene.outline.colour : shade(scene.outline.colour, 0.55),

@@ -401,12 +401,11 @@ void add_emission(FigureContent& content, std::vector<Emission> all) {
   const std::string against = !of_ends                         ? "the displacement of the load"
                               : base.strain == "platen_strain" ? "the strain of the ends, not of the gauge"
                                                                : "the strain of the ends";
-  content.panels.push_back(
-      {.id = "activity",
-       .caption = "Cracks and events against " + against + ": " + base.looks.label + ".",
-       .alt = fmt::format("{} cracks are {} events.", base.hits.all.size(), base.events.size()),
-       .content = activity_chart(base),
-       .per_row = 2});
+  content.panels.push_back({.id = "activity",
+                            .caption = "Cracks and events against " + against + ": " + base.looks.label + ".",
+                            .alt = fmt::format("{} cracks are {} events.", base.hits.all.size(), base.events.size()),
+                            .content = activity_chart(base),
+                            .per_row = 2});
   const render::Chart rates = rate_chart(all);
   content.panels.push_back(
       {.id = "rate",

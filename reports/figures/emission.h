@@ -18,10 +18,10 @@ struct Emission {
   std::vector<analysis::Event> events;  ///< those with an energy
   std::optional<analysis::GutenbergRichter> law;
   std::optional<analysis::GutenbergRichter>
-      own;                  ///< where `law` begins at a magnitude common to all cases: from its own
-  double heat = 0;          ///< of breaking in the ledger at the last crack, J
-  double diameter = 0;      ///< mean of the particles, m
-  std::string strain;       ///< column of the history that rises with the loading
+      own;              ///< where `law` begins at a magnitude common to all cases: from its own
+  double heat = 0;      ///< of breaking in the ledger at the last crack, J
+  double diameter = 0;  ///< mean of the particles, m
+  std::string strain;   ///< column of the history that rises with the loading
   std::string strain_title;
   render::Outline outline;  ///< of the specimen
   [[nodiscard]] double energy() const;

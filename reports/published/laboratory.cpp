@@ -21,7 +21,8 @@ void add_numbers(const StudyResult& study, const std::string& table, const std::
   for (const dem::Measurable& one : study.measurables) {
     const double unit = one.unit.empty() ? 1 : dem::to_si(1, one.unit);
     for (const dem::Measured& value : dem::measured(scenario, table + std::string(one.key))) {
-      LaboratoryNumber number{.key = one.key, .name = one.name, .symbol = one.symbol, .unit = one.unit, .mineral = mineral};
+      LaboratoryNumber number{
+          .key = one.key, .name = one.name, .symbol = one.symbol, .unit = one.unit, .mineral = mineral};
       number.test = one.test;
       number.result = one.result;
       if (!one.by.empty()) number.result += scenario.text(table + std::string(one.by));

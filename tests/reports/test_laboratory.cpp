@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/texture/quantities.h"
+#include "reports/figures/table.h"
 #include "reports/output/summary.h"
 #include "reports/published/laboratory.h"
 #include "tests/reports/synthetic.h"
@@ -89,4 +90,19 @@ TEST_CASE("nothing is said of a rock that nothing was measured of, and summary.j
   const auto json = nlohmann::json::parse(reports::summary_json(some.study(), {}, {}, "0.1.0"));
   CHECK(json.at("laboratory").size() == 2);
   CHECK(json.at("laboratory").at(0).at("verdict") == "outside");
+}
+
+TEST_CASE("the chart of laboratory and model holds what both have, over the measured value") {
+  const Fixture fixture("ucs = \"220 MPa +- 11\"\nyoung_modulus = \"70 GPa\"\ntensile_strength = \"9 MPa +- 1\"\n");
+  reports::StudyResult study = fixture.study();
+  study.laboratory = reports::laboratory_numbers(study);
+  const reports::FigureContent content = reports::texture::laboratory_comparison(study);
+  CHECK(content.finding == "Over the measured values: E 100 %; UCS 95.0 %.");  // 209 of 220; no tension test
+  REQUIRE(content.panels.size() == 1);
+  const auto& chart = std::get<render::Chart>(content.panels.front().content);
+  CHECK(chart.series[0].y_error[1] == doctest::Approx(5));  // 11 of 220
+  CHECK(chart.series[1].y_error[1] ==
+        doctest::Approx(4.07).epsilon(0.01));  // t(0.975, 2) s / sqrt(3), of 205, 210, 212
+  study.laboratory.clear();
+  CHECK(reports::texture::laboratory_comparison(study).finding.empty());
 }

@@ -315,8 +315,8 @@ FigureContent brazilian_strengths(const StudyResult& study) {
   std::vector<LaboratoryPoint> measured;
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const bool direct = k == 0 && !tension.empty();
-    measured.push_back({static_cast<double>(k) + 1.24,
-                        study.measured(direct ? "tensile_strength" : "brazilian_strength")});
+    measured.push_back(
+        {static_cast<double>(k) + 1.24, study.measured(direct ? "tensile_strength" : "brazilian_strength")});
   }
   add_laboratory(chart, measured);
   content.panels.push_back({.id = "strengths",

@@ -20,7 +20,7 @@ constexpr std::size_t fewest = 10, strikes = 18;
 struct Found {
   std::string label;
   analysis::Poles poles;
-  double area = 0;       // mm^2
+  double area = 0;  // mm^2
   std::optional<analysis::Maximum> maximum;
 };
 

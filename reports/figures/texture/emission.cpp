@@ -75,7 +75,8 @@ FigureContent acoustic_emission(const StudyResult& study) {
     content.finding += " All are counted up to the end of loading.";
   if (by_contacts)
     content.finding +=
-        " No test of this study measures Young’s modulus: the speed of shear waves, which sets the window in time, is that "
+        " No test of this study measures Young’s modulus: the speed of shear waves, which sets the window in time, is "
+        "that "
         "by the mean modulus of the contacts.";
   return content;
 }

@@ -106,15 +106,12 @@ bool is_of_cylinder(const dem::Record& record) {
 render::Outline outline_of(const dem::Record& record) {
   const Size size = size_of(record);
   const double half = 0.5 * size.diameter, top = size.z_low + size.height;
-  if (is_of_cylinder(record))
-    return {render::Outline::Shape::cylinder, {-half, -half, size.z_low}, {half, half, top}};
+  if (is_of_cylinder(record)) return {render::Outline::Shape::cylinder, {-half, -half, size.z_low}, {half, half, top}};
   const dem::Table& particles = record.table("particles");
   const auto position = particles.real("position"), radius = particles.real("radius");
   double reach = 0;
-  for (std::size_t i = 0; i < radius.size(); ++i)
-    reach = std::max(reach, std::abs(position[3 * i + 1]) + radius[i]);
-  const auto shape =
-      record.text("test") == test_brazilian ? render::Outline::Shape::disc : render::Outline::Shape::box;
+  for (std::size_t i = 0; i < radius.size(); ++i) reach = std::max(reach, std::abs(position[3 * i + 1]) + radius[i]);
+  const auto shape = record.text("test") == test_brazilian ? render::Outline::Shape::disc : render::Outline::Shape::box;
   return {shape, {-half, -reach, size.z_low}, {half, reach, top}};
 }
 
