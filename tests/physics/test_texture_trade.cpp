@@ -261,6 +261,31 @@ TEST_CASE("a block in direct shear keeps its normal stress, breaks along the gap
   CHECK(whole.history().back().opening == resumed.history().back().opening);
 }
 
+TEST_CASE("a disc splits along its loaded diameter, and where it cracks first is read off its first cracks") {
+  const double diameter = 12.5e-3, radius = diameter / 2;
+  Test test = brazilian(diameter, radius, 0);
+  test.rate = 2e-7;
+  const Run run(granite_in(test));
+  REQUIRE(run.loading.end());
+  const dem::Table& cracks = run.record.table("cracks");
+  const auto place = cracks.real("position");
+  double at_peak = 0, middle = 0, band = 0, along = 0;
+  for (const dem::Quantity& one : quantity::cracks_at_peak) at_peak += run.value(one);
+  const auto first = static_cast<std::size_t>(std::max(at_peak / 100, 10.0));
+  for (std::size_t i = 0; i < cracks.rows(); ++i) {
+    const double x = place[3 * i], z = place[3 * i + 2] - radius;
+    along += std::abs(x) < radius / 4 ? 1 : 0;
+    if (i >= first) continue;
+    middle += std::hypot(x, z) < radius / 2 ? 1 : 0;
+    band += std::abs(x) < radius / 4 ? 1 : 0;
+  }
+  CHECK(run.value(quantity::first_cracks_middle) == doctest::Approx(middle / static_cast<double>(first)));
+  CHECK(run.value(quantity::first_cracks_band) == doctest::Approx(band / static_cast<double>(first)));
+  // Of cracks spread evenly 31 % would lie there.
+  CHECK(along / static_cast<double>(cracks.rows()) > 0.6);
+  CHECK(run.value(quantity::brazilian_strength) > 5);
+}
+
 TEST_CASE("an unbreakable specimen loses no modulus in its loops") {
   Test test = unloading_loops();
   test.rate = 2e-7;
