@@ -66,8 +66,8 @@ struct Outcome {
   std::vector<SubjectResult> subjects;
   Values values;  ///< of all keys that moved, SI
   [[nodiscard]] bool is_met() const;
-  int simulated = 0;
-  double seconds = 0;
+  int simulated = 0;   ///< tests that this run of the program has made; others were kept
+  double seconds = 0;  ///< that they took, one after the other
 };
 
 /// Who is told on the way.

@@ -144,6 +144,10 @@ int perform(const Arguments& arguments) {
     progress.clear();
     if (!request.quiet) {
       for (const std::string& line : calibrate::last_words(outcome)) std::cout << dem::printable(line) << "\n";
+      int tests = 0;
+      for (const calibrate::SubjectResult& subject : outcome.subjects) tests += subject.tests;
+      std::cout << "cost: " << tests << " tests; " << outcome.simulated << " of them were run now, in "
+                << dem::duration_text(outcome.seconds) << " added up\n";
       std::cout << "calibrated rock: " << places.rock.string() << "\nreport: "
                 << (places.folder / (request.html  ? "calibration.html"
                                      : request.pdf ? "calibration.pdf"

@@ -203,6 +203,7 @@ TEST_CASE("progress names the stage, the trial and how far it is from what was m
   CHECK(has(outcome.err, "stone, fresh seeds, trial 1: E "));
   CHECK(has(outcome.out, "calibrated rock: out/stone.smoke/rocks/stone.calibrated.toml"));
   CHECK(has(outcome.out, "within its uncertainty"));
+  CHECK(has(outcome.out, "of them were run now, in "));
 }
 
 TEST_CASE("bad input ends with what to do, before anything is written") {
