@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <stdexcept>
+#include <tuple>
 
 namespace dem::analysis {
 namespace {
@@ -98,6 +100,62 @@ double cracks_of(const Record& record, const CrackChoice& choice, CrackMeasure m
         ends.holds(mineral[static_cast<std::size_t>(pair[2 * c])], mineral[static_cast<std::size_t>(pair[2 * c + 1])]);
   }
   return static_cast<double>(broken.size()) / all;
+}
+
+Cracking cracking_until(const Record& record, const std::string& until) {
+  const Table &cracks = record.table("cracks"), &contacts = record.table("contacts");
+  const auto place = cracks.integer("place"), mode = cracks.integer("mode"), contact = cracks.integer("contact");
+  const auto area = cracks.real("area");
+  const auto mineral = record.table("particles").integer("mineral"), pair = contacts.integer("pair"),
+             where = contacts.integer("place");
+  std::map<std::tuple<std::int32_t, std::int32_t, std::int32_t>, Cracking::Group> groups;
+  const auto group_of = [&](std::size_t c) -> Cracking::Group& {
+    const auto [a, b] = std::minmax(
+        {mineral[static_cast<std::size_t>(pair[2 * c])], mineral[static_cast<std::size_t>(pair[2 * c + 1])]});
+    Cracking::Group& group = groups[{where[c], a, b}];
+    group.place = where[c];
+    group.first = a;
+    group.second = b;
+    return group;
+  };
+  for (std::size_t c = 0; c < where.size(); ++c) ++group_of(c).contacts;
+  Cracking found;
+  std::set<std::int32_t> broken;
+  const std::size_t last = until.empty() ? cracks.rows() : cracks_at(record, until);
+  for (std::size_t i = 0; i < last; ++i) {
+    Cracking::Class& of = found.classes.at(static_cast<std::size_t>(place[i])).at(static_cast<std::size_t>(mode[i]));
+    ++of.number;
+    of.area += area[i];
+    if (!broken.insert(contact[i]).second) continue;
+    ++of.contacts;
+    ++group_of(static_cast<std::size_t>(contact[i])).cracked;
+  }
+  for (const auto& [key, group] : groups) found.groups.push_back(group);
+  return found;
+}
+
+Cracking::Class Cracking::all() const {
+  Class sum;
+  for (const auto& modes : classes) {
+    for (const Class& one : modes) {
+      sum.number += one.number;
+      sum.contacts += one.contacts;
+      sum.area += one.area;
+    }
+  }
+  return sum;
+}
+
+double Cracking::contacts() const {
+  double sum = 0;
+  for (const Group& group : groups) sum += group.contacts;
+  return sum;
+}
+
+double Cracking::exposure(const Group& group) const {
+  const double cracked = all().contacts;
+  if (!(cracked > 0)) return std::numeric_limits<double>::quiet_NaN();
+  return (group.cracked / cracked) / (group.contacts / contacts());
 }
 
 double lateral_strain_at(const Record& record, double axial_strain) {

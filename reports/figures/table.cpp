@@ -37,6 +37,8 @@ std::span<const Figure> figures() {
       {"crack_orientation", "Splitting or shear", "Zhao et al. 2021, section 6", "grain_texture",
        texture::crack_orientation},
       {"crack_concentration", "Where cracks concentrate", "", "grain_texture", texture::crack_concentration},
+      {"crack_exposure", "Which contacts crack, by number, contact and area", "", "grain_texture",
+       texture::crack_exposure},
       {"crack_directions", "Which way the cracks lie", "", "grain_texture", texture::crack_directions},
       {"fragments", "What holds together after failure", "", "grain_texture", texture::fragments},
       {"displacement_jump", "How far the sides of the band have moved", "", "grain_texture",

@@ -11,6 +11,7 @@ FigureContent crack_stages(const StudyResult& study);
 FigureContent stress_strain(const StudyResult& study);
 FigureContent crack_maps(const StudyResult& study);
 FigureContent crack_counts(const StudyResult& study);
+FigureContent crack_exposure(const StudyResult& study);
 FigureContent group_shares(const StudyResult& study);
 FigureContent energy_compression(const StudyResult& study);
 FigureContent energy_tension(const StudyResult& study);

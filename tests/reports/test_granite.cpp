@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "engine/analysis/cracking.h"
 #include "engine/analysis/ending.h"
 #include "engine/analysis/orientation.h"
 #include "render/chart/layout.h"
@@ -514,4 +515,56 @@ TEST_CASE("a band of cracks is found at its angle to the axis") {
     CHECK(at_random > 0);
     CHECK(at_random < 0.2 * band.excess());
   }
+}
+
+TEST_CASE("cracks are shared out by number, contact and area, and groups of contacts by how often they crack") {
+  Made made("ldb_uniaxial");
+  made.add_confined(0);
+  dem::Record& record = made.records.back();
+  // Two contacts inside grains and two between; of the first three elements break, one of the third.
+  const auto column = [](dem::Table& table, const char* name, std::vector<std::int32_t> values, int wide = 1) {
+    table.add(name, "", std::move(values), wide);
+  };
+  dem::Table contacts{.name = "contacts", .attributes = {}, .columns = {}}, cracks = contacts;
+  cracks.name = "cracks";
+  const auto mineral = record.table("particles").integer("mineral");
+  const auto other = static_cast<std::int32_t>(
+      std::ranges::find_if(mineral, [&](std::int32_t m) { return m != mineral[0]; }) - mineral.begin());
+  REQUIRE(static_cast<std::size_t>(other) < mineral.size());
+  column(contacts, "pair", {0, 0, 0, 0, 0, other, 0, other}, 2);
+  column(contacts, "place", {0, 0, 1, 1});
+  column(cracks, "mode", {0, 1, 1, 0});
+  column(cracks, "place", {0, 0, 0, 1});
+  column(cracks, "contact", {0, 0, 0, 2});
+  cracks.add("area", "m^2", std::vector<double>{1, 1, 1, 3});
+  set_table(record, contacts);
+  set_table(record, cracks);
+  const auto found = dem::analysis::cracking_until(record, "");
+  CHECK(found.all().number == 4);
+  CHECK(found.all().contacts == 2);
+  CHECK(found.classes[0][0].contacts == 1);  // by its first crack
+  CHECK(found.classes[0][1].contacts == 0);
+  CHECK(found.classes[0][1].number == 2);
+  CHECK(found.classes[1][0].area / found.all().area == Approx(0.5));
+  REQUIRE(found.groups.size() == 2);
+  CHECK(found.groups[0].place == 0);
+  for (const auto& group : found.groups) CHECK(found.exposure(group) == Approx(1));
+}
+
+TEST_CASE("the figure of crack exposure tells both moments, and stands without cracks or cases") {
+  Made made("ldb_uniaxial");
+  made.add_confined(0);
+  const auto content = reports::texture::crack_exposure(made.study());
+  std::string ids;
+  for (const auto& panel : content.panels) ids += panel.id + " ";
+  CHECK(ids == "peak end classes groups ");
+  CHECK(has(content.finding, "inter-grain contacts are "));
+
+  Made none("ldb_uniaxial");
+  none.add_confined(0);
+  dem::Table empty = none.records.back().table("cracks");
+  for (auto& c : empty.columns) std::visit([](auto& values) { values.clear(); }, c.values);
+  set_table(none.records.back(), empty);
+  CHECK_FALSE(reports::texture::crack_exposure(none.study()).panels.empty());
+  CHECK(reports::texture::crack_exposure(none.study()).finding.empty());
 }
