@@ -3,7 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/texture/quantities.h"
 #include "reports/page/choices.h"
+#include "reports/text.h"
 #include "tests/reports/synthetic.h"
 #include "tests/support/scratch.h"
 
@@ -34,6 +36,22 @@ TEST_CASE("an entry without conditions is told, and braces hold the scenario's v
   const Json kept = reports::about(made.study.result(), Json::array({{{"text", "{specimen.diameter} m wide"}}}));
   REQUIRE(kept.size() == 1);
   CHECK(kept[0]["text"] == "0.02 m wide");
+}
+
+TEST_CASE("a rate per step is told in s⁻¹ and m/s by the time steps of the cases that were loaded at it") {
+  Made made;
+  const double step = 4e-8;
+  made.study.record("compression_ar_1").put(dem::texture::quantity::time_step, step);
+  const std::string text = "{compression.rate} per step{compression.rate in time over specimen.height}.";
+  reports::StudyResult study = made.study.result();
+  const double rate = study.scenario->real("compression.rate"), height = study.scenario->real("specimen.height");
+  const std::string told = reports::about(study, Json::array({{{"text", text}}}))[0]["text"];
+  CAPTURE(told);
+  CHECK(told.find(", or " + reports::number(rate / step, 2) + " s⁻¹; ") != std::string::npos);
+  CHECK(told.find(" at " + reports::number(rate * height / step, 2) + " m/s ") != std::string::npos);
+  for (auto& one : study.cases) one.record = nullptr;
+  const std::string bare = reports::about(study, Json::array({{{"text", text}}}))[0]["text"];
+  CHECK(bare.ends_with(" per step."));
 }
 
 TEST_CASE("a key's value tells an entry (when), or takes it away (unless), as text or as a number") {
