@@ -55,7 +55,7 @@ void check_kind(const Json& entry, const std::string& id) {
     check_members(entry, id, with(needed, {"published", "over"}), with(allowed, {"published_values", "resolution"}));
     if (entry.at("published") != "rises" && entry.at("published") != "falls") wrong(id, "a trend rises or falls");
   } else if (kind == "greater") {
-    check_members(entry, id, with(needed, {"than"}), allowed);
+    check_members(entry, id, with(needed, {"than"}), with(allowed, {"resolution"}));
   } else {
     wrong(id, "the kind “" + kind + "” is none of value, trend, greater");
   }
@@ -95,7 +95,7 @@ void check_entries(const Json& file) {
     for (const Json& reading : entry.value("readings", Json::array())) {
       const std::string name = reading.at("id").get<std::string>();
       add(name);
-      check_members(reading, name, {"id", "reading", "of"}, {});
+      check_members(reading, name, {"id", "reading", "of"}, entry.at("kind") == "greater" ? Names{"than"} : Names{});
     }
   }
   for (const Json& entry : file.at("numbers")) {

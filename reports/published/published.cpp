@@ -146,7 +146,8 @@ void compare_trend(const Terms& terms, const Json& entry, const Json& term, Comp
   row.p_value = slope.p_value;
 }
 
-void compare_greater(const Terms& terms, const Json& of, const Json& than, Comparison& row) {
+// Two that are less apart than `resolution` of the larger are undecided.
+void compare_greater(const Terms& terms, const Json& of, const Json& than, double resolution, Comparison& row) {
   const auto values = terms.values({{"difference", {of, than}}});
   const analysis::Estimate difference = analysis::mean_of(values);
   row.estimate = difference;
@@ -161,6 +162,13 @@ void compare_greater(const Terms& terms, const Json& of, const Json& than, Compa
     row.detail += fmt::format("; difference {} ({})", number(difference.value, 2), interval_text(difference, 2));
   } else if (terms.by_chance()) {
     row.detail += "; " + seeds_text(values.size()) + ": no interval";
+  }
+  const double apart = std::abs(difference.value) / std::max(std::abs(one), std::abs(other));
+  if (apart < resolution) {
+    row.outcome = Verdict::undecided;
+    row.computed = "no clear difference";
+    row.detail += fmt::format("; {} apart, less than the {} change caused by halving the loading rate",
+                              percent(apart, 1), percent(resolution, 0));
   }
 }
 
@@ -214,8 +222,9 @@ bool concerns(const StudyResult& study, const Terms& terms, const Json& entry) {
   return has_cases(terms, entry, entry.at("of")) && (!entry.contains("than") || terms.has_cases(entry.at("than")));
 }
 
-/// Compares a row with what `term` of the entry, or of another reading of it, gives.
-void evaluate(const StudyResult& study, const Terms& terms, const Json& entry, const Json& term, Comparison& row) {
+/// Compares a row with what the terms of `what` give: of the entry, or of another reading of it.
+void evaluate(const StudyResult& study, const Terms& terms, const Json& entry, const Json& what, Comparison& row) {
+  const Json& term = what.at("of");
   const bool elsewhere = row.scale != "any" && row.scale != study.scenario->scale();
   try {
     if (row.kind == "value") {
@@ -223,7 +232,8 @@ void evaluate(const StudyResult& study, const Terms& terms, const Json& entry, c
     } else if (row.kind == "trend") {
       compare_trend(terms, entry, term, row);
     } else {
-      compare_greater(terms, term, entry.at("than"), row);
+      compare_greater(terms, term, what.contains("than") ? what.at("than") : entry.at("than"),
+                      entry.value("resolution", 0.0), row);
     }
     row.verdict = elsewhere ? Verdict::not_judged : row.outcome;
     // None is none in a specimen of any size.
@@ -251,7 +261,7 @@ void compare_entry(const StudyResult& study, const Terms& terms, const Paper& pa
   std::vector<Comparison> all = {row};
   // A formula beside a formula: any case has the parameters that it is made of.
   const Terms any_case(study, Terms::Lacking::taken_from_any);
-  evaluate(study, row.role == Role::theory ? any_case : terms, entry, entry.at("of"), all.front());
+  evaluate(study, row.role == Role::theory ? any_case : terms, entry, entry, all.front());
   for (const Json& reading : entry.value("readings", Json::array())) {
     const Json& term = reading.at("of");
     if (!has_cases(terms, entry, term)) continue;
@@ -262,7 +272,7 @@ void compare_entry(const StudyResult& study, const Terms& terms, const Paper& pa
     other.why.clear();
     other.of = {row.id};
     other.statement.clear();
-    evaluate(study, terms, entry, term, other);
+    evaluate(study, terms, entry, reading, other);
     all.push_back(std::move(other));
   }
   for (Comparison& one : all) rows.push_back(std::move(one));

@@ -6,12 +6,14 @@
 //      "trend":   "published": "rises" | "falls", "over": {"aspect_ratio": [1, 2, 3]}, "of": TERM; steps that the scenario has
 //                 no cases for are left out; "published_values": [...] are shown beside ours; "resolution": 0.08 leaves a
 //                 smaller relative change over all steps undecided, because half the loading rate makes as much
-//      "greater": "of": TERM, "than": TERM: ours must be greater, as published
+//      "greater": "of": TERM, "than": TERM: ours must be greater, as published; "resolution" leaves two undecided that are
+//                 less apart than this share of the larger
 // TERM: see reports/published/terms.h. Which numbers concern a scenario: those with a topic of its key `published`; without
 // that key every number whose cases the scenario has.
 // Where a scenario repeats its cases with other seeds, values are means. How they are judged: reports/published/verdict.h.
 // A number has one entry and one verdict. What is not counted, or counted apart, is declared:
-//   "readings": [{"id", "reading": "seeds × 0.675", "of": TERM}]  rows under the entry's, where the scenario has their cases
+//   "readings": [{"id", "reading": "seeds × 0.675", "of": TERM}]  rows under the entry's, where the scenario has their cases; of
+//                          kind "greater" with a "than" of their own where they need one
 //   "follows": ["id", ...]   follows from those rows
 //   "fitted": "why"          a choice of the program was fitted to it
 //   "theory": "why"          a formula beside a formula

@@ -522,6 +522,25 @@ TEST_CASE_FIXTURE(Fixture, "greater is greater, by the interval of the differenc
   CHECK(one(up).verdict == Verdict::met);
 }
 
+TEST_CASE_FIXTURE(Fixture,
+                  "two that are less apart than the resolution are undecided; a reading has its own second term") {
+  without_seeds(records);
+  const std::string a = R"({"test": "compression", "aspect_ratio": 1, "of": "compressive_strength"})";  // 206
+  const std::string b = R"({"test": "compression", "aspect_ratio": 2, "of": "compressive_strength"})";  // 190
+  const std::string up = R"("kind": "greater", "of": )" + a + R"(, "than": )" + b;
+  CHECK(one(up + R"(, "resolution": 0.07)").verdict == Verdict::met);
+  const Comparison close = one(up + R"(, "resolution": 0.08)");
+  CHECK(close.verdict == Verdict::undecided);
+  CHECK(close.detail.find("7.8 % apart") != std::string::npos);
+  const auto rows =
+      compared(R"({"id": "a", "topics": ["aspect_ratio"], "source": "s", "quantity": "q", )" + up +
+                   R"(, "readings": [{"id": "turned", "reading": "turned", "of": )" + b + R"(, "than": )" + a + "}]}",
+               study());
+  REQUIRE(rows.size() == 2);
+  CHECK(rows[0].verdict == Verdict::met);
+  CHECK(rows[1].outcome == Verdict::missed);
+}
+
 TEST_CASE_FIXTURE(Fixture, "what is missing is not computed, and says why") {
   const std::string wanted = value("200", R"({"relative": 0.1})");
   auto failed = study();
