@@ -341,9 +341,13 @@ FigureContent confinement_envelopes(const StudyResult& study) {
   FigureContent content;
   content.statement =
       "Hoek-Brown envelopes with σc 206 MPa, m 29 and s 1 for the peak, and m 16 and s 0.6 for crack damage; crack "
-      "initiation at 71.1 MPa + 1.1 σ₃, within (0.3 to 0.5) σc + (1 to 1.5) σ₃ for brittle rocks (Eq. 12).";
-  content.rows = {"envelope_peak_m", "envelope_damage_m", "envelope_damage_s", "initiation_slope",
-                  "initiation_intercept"};
+      "initiation at 71.1 MPa + 1.1 σ₃, within (0.3 to 0.5) σc + (1 to 1.5) σ₃ for brittle rocks (Eq. 12). The peaks "
+      "are close to those of the "
+      "laboratory.";
+  content.rows = {"envelope_peak_m",      "envelope_damage_m", "envelope_damage_s",      "initiation_slope",
+                  "initiation_intercept", "initiation_linear", "initiation_slope_range", "initiation_share_range",
+                  "martin_peak_0",        "martin_peak_5",     "martin_peak_10",         "martin_peak_20",
+                  "martin_peak_40",       "martin_peak_60"};
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   const analysis::Envelopes found = envelopes_of(study);
   if (found.peak.sigma_3.empty()) return content;

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <tuple>
 
+#include "engine/analysis/cracking.h"
 #include "engine/analysis/orientation.h"
 #include "reports/figures/table.h"
 #include "reports/figures/texture/failed.h"
@@ -16,23 +18,33 @@
 namespace reports::texture {
 namespace {
 
-ValueOf number_of(const CrackClass& one) { return shown(one.number); }
+enum class When { peak, end };
 
-double all_of(const dem::Record& record) {
-  double total = 0;
-  for (const CrackClass& one : crack_classes()) total += number_of(one)(record);
-  return total;
+ValueOf number_of(const CrackClass& one, When when = When::end) {
+  if (when == When::end) return shown(one.number);
+  return [id = "cracks_at_peak." + std::string(one.id)](const dem::Record& record) {
+    const double* number = record.find_result(id);
+    return number ? *number : std::nan("");
+  };
 }
 
-ValueOf share_of(const CrackClass& one) {
-  return [&one](const dem::Record& record) {
-    const double total = all_of(record);
-    return total > 0 ? 100 * number_of(one)(record) / total : std::nan("");
+ValueOf all_at(When when) {
+  return [when](const dem::Record& record) {
+    double total = 0;
+    for (const CrackClass& one : crack_classes()) total += number_of(one, when)(record);
+    return total;
+  };
+}
+
+ValueOf share_of(const CrackClass& one, When when = When::end) {
+  return [&one, when](const dem::Record& record) {
+    const double total = all_at(when)(record);
+    return total > 0 ? 100 * number_of(one, when)(record) / total : std::nan("");
   };
 }
 
 // Bars grouped by class: a bar a case.
-render::Chart bars_by_class(const std::vector<SeriesCase>& cases) {
+render::Chart bars_by_class(const std::vector<SeriesCase>& cases, When when) {
   render::Bars bars;
   bool repeated = false;
   for (const CrackClass& one : crack_classes()) bars.categories.emplace_back(one.name);
@@ -43,8 +55,8 @@ render::Chart bars_by_class(const std::vector<SeriesCase>& cases) {
     std::vector<double> values, errors;
     for (std::size_t k = 0; k <= crack_classes().size(); ++k) {
       const Spread spread =
-          analysis::spread(item, k < crack_classes().size() ? number_of(crack_classes()[k]) : ValueOf(all_of));
-      values.push_back(std::isfinite(spread.mean) ? spread.mean : 0);
+          analysis::spread(item, k < crack_classes().size() ? number_of(crack_classes()[k], when) : all_at(when));
+      values.push_back(spread.mean);
       errors.push_back(spread.deviation);
       repeated = repeated || spread.count > 1;
     }
@@ -62,14 +74,14 @@ render::Chart bars_by_class(const std::vector<SeriesCase>& cases) {
 }
 
 // Lines along the swept parameter: a line a class, and one for all cracks.
-render::Chart lines_by_class(const std::vector<SeriesCase>& cases, const dem::Parameter& axis, bool shares) {
+render::Chart lines_by_class(const std::vector<SeriesCase>& cases, const dem::Parameter& axis, bool shares, When when) {
   render::Chart chart;
   chart.x.title = axis_title(axis);
   chart.left.title = shares ? "Share of cracks (%)" : "Number of cracks";
   chart.left.low = 0;
   for (std::size_t k = 0; k < crack_classes().size(); ++k) {
     const CrackClass& one = crack_classes()[k];
-    render::Series series = means(cases, shares ? share_of(one) : number_of(one));
+    render::Series series = means(cases, shares ? share_of(one, when) : number_of(one, when));
     series.label = one.name;
     series.colour = one.colour;
     series.line = render::line_style(k);
@@ -77,7 +89,7 @@ render::Chart lines_by_class(const std::vector<SeriesCase>& cases, const dem::Pa
     if (!series.x.empty()) chart.series.push_back(series);
   }
   if (!shares) {
-    render::Series total = means(cases, all_of);
+    render::Series total = means(cases, all_at(when));
     total.label = "all";
     total.colour = {0.45, 0.45, 0.45};
     total.marker = render::Marker::cross;
@@ -103,10 +115,12 @@ double mean_angle(const dem::Record& record) { return analysis::orientation_of(r
 struct Stage {
   std::string_view moment, name, said;
 };
-constexpr std::array stages{
-    Stage{"stable_growth", "Stable crack growth", "stable growth"}, Stage{"damage", "Crack damage", "damage"},
-    Stage{"unstable_growth", "Unstable crack growth", "unstable growth"},
-    Stage{"post_peak", "After the peak", "after the peak"}, Stage{"end", "End of loading", "end"}};
+constexpr std::array stages{Stage{"crack_initiation", "Crack initiation", "initiation"},
+                            Stage{"stable_growth", "Stable crack growth", "stable growth"},
+                            Stage{"damage", "Crack damage", "damage"},
+                            Stage{"unstable_growth", "Unstable crack growth", "unstable growth"},
+                            Stage{"post_peak", "After the peak", "after the peak"},
+                            Stage{"end", "End of loading", "end"}};
 
 const dem::Table* snapshot(const dem::Record& record, std::string_view moment) {
   for (const dem::Table& table : record.tables) {
@@ -128,7 +142,7 @@ std::string at_strain(const dem::Table& moment) {
 }
 
 // Which pairs of minerals share most of the inter-grain tension cracks among the first `count`.
-std::string weakest_boundary(const dem::Record& record, std::size_t count) {
+std::string weakest_boundary(const dem::Record& record, std::size_t count, const std::string& until) {
   const dem::Table& cracks = record.table("cracks");
   const auto a = cracks.integer("mineral_a");
   const auto b = cracks.integer("mineral_b");
@@ -143,10 +157,21 @@ std::string weakest_boundary(const dem::Record& record, std::size_t count) {
   if (all == 0) return {};
   const auto most = std::ranges::max_element(pairs, {}, [](const auto& item) { return item.second; });
   const auto names = minerals_of(record);
-  return fmt::format("{} of the inter-grain cracks lie between {} and {}",
-                     percent(static_cast<double>(most->second) / static_cast<double>(all), 0),
-                     names.at(static_cast<std::size_t>(most->first.first)),
-                     names.at(static_cast<std::size_t>(most->first.second)));
+  const std::string& one = names.at(static_cast<std::size_t>(most->first.first));
+  const std::string& other = names.at(static_cast<std::size_t>(most->first.second));
+  std::string words = fmt::format("{} of the inter-grain cracks lie between {} and {}",
+                                  percent(static_cast<double>(most->second) / static_cast<double>(all), 0), one, other);
+  // A pair of minerals with many contacts has many cracks without being weak.
+  const auto exposure = [&](const std::vector<std::string>& pair) {
+    return dem::analysis::cracks_of(record, {.place = 1, .pair = pair, .until = until},
+                                    dem::analysis::CrackMeasure::exposure);
+  };
+  if (!record.find("contacts")) return words;
+  const double of_pair = exposure({one, other}), of_all = exposure({});
+  if (of_pair > 0 && of_all > 0)
+    words += fmt::format(", where {} of the contacts have a crack, {} times the share among all inter-grain contacts",
+                         percent(of_pair, 1), number(of_pair / of_all, 2));
+  return words;
 }
 
 // Cracks so far at each stage by the minerals at their ends, "tension / shear".
@@ -198,31 +223,58 @@ std::string discs_note(double scale) {
   return (scale < 1 ? fmt::format(", drawn at {:.1g} of their diameter", scale) : std::string()) + ".";
 }
 
+// The state that a picture shows: a snapshot of the record, or the end of loading.
+struct Moment {
+  std::string_view snapshot, id, words;
+};
+constexpr Moment at_end{"end", "", "at the end of loading"};
+constexpr Moment at_peak{"peak", "peak_", "at the peak"};
+constexpr Moment after_peak{"post_peak", "", "where the stress has fallen to 90 % of the peak"};
+
+std::size_t cracks_until(const dem::Record& record, const Moment& moment) {
+  const dem::Table* table = snapshot(record, moment.snapshot);
+  return moment.snapshot == at_end.snapshot || !table ? all_cracks : cracks_so_far(*table);
+}
+
+// Cases whose stress did not fall that far show the end of loading.
+std::string moment_words(const std::vector<SeriesCase>& cases, const Moment& moment) {
+  std::vector<std::string> without;
+  for (const SeriesCase& item : cases)
+    if (!snapshot(*item.record, moment.snapshot)) without.push_back(item.label);
+  return std::string(moment.words) + (without.empty() || moment.snapshot == at_end.snapshot
+                                          ? ""
+                                          : " (at " + listed(without) + " at the end of loading)");
+}
+
 // Discs of one scale, so that pictures can be compared.
-void add_clouds(FigureContent& content, const std::vector<SeriesCase>& cases) {
+void add_clouds(FigureContent& content, const std::vector<SeriesCase>& cases, const Moment& moment = at_end) {
   double scale = 1;
   for (const SeriesCase& item : cases) scale = std::min(scale, legible_disc_scale(*item.record));
   for (const SeriesCase& item : cases) {
-    content.panels.push_back({.id = "discs_" + item.id,
-                              .caption = "All cracks as discs in the transparent specimen" + discs_note(scale),
-                              .alt = crack_alt(*item.record, all_cracks, capital(item.label) + ":"),
-                              .content = transparent_cracks(*item.record, all_cracks, item.label, 480, scale),
-                              .per_row = pictures_per_row(cases)});
+    content.panels.push_back(
+        {.id = std::string(moment.id) + "discs_" + item.id,
+         .caption =
+             "All cracks " + moment_words(cases, moment) + " as discs in the transparent specimen" + discs_note(scale),
+         .alt = crack_alt(*item.record, cracks_until(*item.record, moment),
+                          capital(item.label) + ", " + std::string(moment.words) + ":"),
+         .content = transparent_cracks(*item.record, cracks_until(*item.record, moment), item.label, 480, scale),
+         .per_row = pictures_per_row(cases)});
   }
 }
 
 // With one scale of colours. Returns the largest density of each case, 1/mm.
-std::vector<double> add_densities(FigureContent& content, const std::vector<SeriesCase>& cases) {
+std::vector<double> add_densities(FigureContent& content, const std::vector<SeriesCase>& cases,
+                                  const Moment& moment = at_end) {
   std::vector<CrackDensity> densities;
   std::vector<double> largest;
   for (const SeriesCase& item : cases) {
-    densities.push_back(crack_density(*item.record, all_cracks));
+    densities.push_back(crack_density(*item.record, cracks_until(*item.record, moment)));
     largest.push_back(densities.back().largest());
   }
   const double densest = largest.empty() ? 0 : end_of_bar(std::ranges::max(largest));
   for (std::size_t i = 0; i < cases.size() && densest > 0; ++i) {
     content.panels.push_back({.id = "density_" + cases[i].id,
-                              .caption = density_caption,
+                              .caption = density_caption + (" Cracks " + moment_words(cases, moment) + "."),
                               .alt = density_alt(cases[i].label, densities[i]),
                               .content = density_picture(*cases[i].record, densities[i], densest, cases[i].label, 480),
                               .per_row = pictures_per_row(cases)});
@@ -238,26 +290,33 @@ FigureContent crack_maps(const StudyResult& study) {
   content.rows = {"failure_mode_with_ar"};
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
-  add_clouds(content, cases);
+  add_clouds(content, cases, at_peak);
+  add_clouds(content, cases, after_peak);
   const int per_row = cases.size() <= 3 ? 3 : 4;
   for (const SeriesCase& item : cases) {
     content.panels.push_back(
         {.id = "section_" + item.id,
-         .caption = "Cracks within half a mean particle diameter of the longitudinal section, over the minerals.",
+         .caption = "Cracks " + moment_words(cases, after_peak) +
+                    ", within half a mean particle diameter of the longitudinal section, over the minerals.",
          .alt = "Section at " + item.label + " with the traces of the cracks near it over the minerals.",
-         .content = section_cracks(study, *item.record, all_cracks, item.label, 480),
+         .content = section_cracks(study, *item.record, cracks_until(*item.record, after_peak), item.label, 480),
          .per_row = per_row});
   }
-  (void)add_densities(content, cases);
-  std::vector<std::string> totals;
-  for (const SeriesCase& item : cases) {
-    std::size_t total = 0;
-    for (const std::size_t n : crack_numbers(*item.record, all_cracks)) total += n;
-    totals.push_back(count(static_cast<double>(total)) + " at " + item.label);
+  (void)add_densities(content, cases, after_peak);
+  for (const Moment& moment : {at_peak, after_peak, at_end}) {
+    std::vector<std::string> totals;
+    for (const SeriesCase& item : cases) {
+      std::size_t total = 0;
+      for (const std::size_t n : crack_numbers(*item.record, cracks_until(*item.record, moment))) total += n;
+      totals.push_back(count(static_cast<double>(total)) + " at " + item.label);
+    }
+    if (totals.empty()) continue;
+    content.finding +=
+        (content.finding.empty() ? "" : " ") + ("Cracks " + moment_words(cases, moment)) + ": " + listed(totals) + ".";
   }
-  if (!totals.empty()) content.finding = "Cracks at the end of loading: " + listed(totals) + ".";
-  if (!totals.empty())
-    content.finding += " Their mean angle to the axis is " + by_case(cases, mean_angle, 3, "°") + ".";
+  if (!cases.empty())
+    content.finding +=
+        " The mean angle of those at the end of loading to the axis is " + by_case(cases, mean_angle, 3, "°") + ".";
   return content;
 }
 
@@ -296,34 +355,39 @@ FigureContent crack_counts(const StudyResult& study) {
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
   const dem::Parameter& axis = swept_axis(study);
-  std::vector<std::string> parts;
-  for (const CrackClass& one : crack_classes())
-    parts.push_back(std::string(one.name) + " " + by_case(cases, number_of(one), 0, ""));
-  parts.push_back("total " + by_case(cases, all_of, 0, ""));
-  std::vector<std::string> labels, shares;
+  std::vector<std::string> labels;
   for (const SeriesCase& item : cases) labels.push_back(item.label);
-  for (const CrackClass& one : crack_classes())
-    shares.push_back(std::string(one.name) + " " + by_case(cases, share_of(one), 3, "%"));
-  const std::string found = "Cracks at " + listed(labels) + ": " + joined(parts, "; ") + ".";
-  if (axis.id == "aspect_ratio") {
-    content.panels.push_back({.id = "",
-                              .caption = "Cracks at the end of loading, by class and aspect ratio." + with_its(cases),
-                              .alt = found,
-                              .content = bars_by_class(cases),
-                              .per_row = 1});
-  } else {
-    content.panels.push_back({.id = "numbers",
-                              .caption = "Cracks at the end of loading, by class." + with_its(cases),
-                              .alt = found,
-                              .content = lines_by_class(cases, axis, false),
-                              .per_row = 2});
-    content.panels.push_back({.id = "shares",
-                              .caption = "Their shares of all cracks." + with_its(cases),
-                              .alt = joined(shares, "; ") + ".",
-                              .content = lines_by_class(cases, axis, true),
-                              .per_row = 2});
+  for (const auto& [when, id, words] :
+       {std::tuple{When::peak, "peak_", "at the peak"}, {When::end, "", "at the end of loading"}}) {
+    std::vector<std::string> parts, shares;
+    for (const CrackClass& one : crack_classes()) {
+      parts.push_back(std::string(one.name) + " " + by_case(cases, number_of(one, when), 0, ""));
+      shares.push_back(std::string(one.name) + " " + by_case(cases, share_of(one, when), 3, "%"));
+    }
+    parts.push_back("total " + by_case(cases, all_at(when), 0, ""));
+    const std::string found = "Cracks " + std::string(words) + ", " + listed(labels) + ": " + joined(parts, "; ") + ".";
+    const std::string name = id;
+    if (axis.id == "aspect_ratio") {
+      content.panels.push_back(
+          {.id = name + "numbers",
+           .caption = "Cracks " + std::string(words) + ", by class and aspect ratio." + with_its(cases),
+           .alt = found,
+           .content = bars_by_class(cases, when),
+           .per_row = 1});
+    } else {
+      content.panels.push_back({.id = name + "numbers",
+                                .caption = "Cracks " + std::string(words) + ", by class." + with_its(cases),
+                                .alt = found,
+                                .content = lines_by_class(cases, axis, false, when),
+                                .per_row = 2});
+      content.panels.push_back({.id = name + "shares",
+                                .caption = "Their shares of all cracks " + std::string(words) + "." + with_its(cases),
+                                .alt = joined(shares, "; ") + ".",
+                                .content = lines_by_class(cases, axis, true, when),
+                                .per_row = 2});
+    }
+    content.finding += (content.finding.empty() ? "" : " ") + found;
   }
-  content.finding = found;
   if (cases.size() > 2 || !with_its(cases).empty()) {
     std::vector<Trend> trends;
     for (const CrackClass& one : crack_classes())
@@ -400,13 +464,13 @@ FigureContent crack_stages(const StudyResult& study) {
                     "σcd and the peak, after the peak at 90 % of it.",
          .alt = crack_alt(*base.record, so_far, std::string(stage.name) + ":"),
          .content = transparent_cracks(*base.record, so_far, std::string(stage.name) + at_strain(*moment), 340, scale),
-         .per_row = 5});
+         .per_row = 3});
     sections.push_back(
         {.id = std::string(stage.moment) + "_section",
          .caption = "Cracks within half a mean particle diameter of the longitudinal section, over the minerals.",
          .alt = std::string(stage.name) + ": traces of the cracks near the section, over the minerals.",
          .content = section_cracks(study, *base.record, so_far, std::string(stage.name), 340),
-         .per_row = 5});
+         .per_row = 3});
     densities.emplace_back(stage, crack_density(*base.record, so_far));
     densest = std::max(densest, densities.back().second.largest());
   }
@@ -424,7 +488,7 @@ FigureContent crack_stages(const StudyResult& study) {
                               .caption = density_caption,
                               .alt = density_alt(std::string(stage.name), density),
                               .content = density_picture(*base.record, density, densest, std::string(stage.name), 340),
-                              .per_row = 5});
+                              .per_row = 3});
   }
   content.panels.push_back({.id = "by_minerals",
                             .caption = "Number of cracks in each stage by the minerals of the two particles.",
@@ -433,7 +497,7 @@ FigureContent crack_stages(const StudyResult& study) {
                             .per_row = 1});
   content.finding = "At " + base.label + ", cracks so far: " + listed(said) + ".";
   if (const dem::Table* growth = snapshot(*base.record, "stable_growth")) {
-    const std::string boundary = weakest_boundary(*base.record, cracks_so_far(*growth));
+    const std::string boundary = weakest_boundary(*base.record, cracks_so_far(*growth), "stable_growth");
     content.finding += " In stable growth: " + crack_words(crack_numbers(*base.record, cracks_so_far(*growth))) +
                        (boundary.empty() ? "." : "; " + boundary + ".");
   }

@@ -490,7 +490,12 @@ FigureContent progressive_failure(const StudyResult& study) {
       "Crack initiation, where the axial stiffness begins to fluctuate, is at 71.1 MPa (34 % of the peak) and about "
       "0.1 % strain; crack damage, where the volumetric strain peaks, at 164 MPa (80 %) and 0.25 %; the peak is 206.8 "
       "MPa.";
-  content.rows = {"stress_at_0_1_percent_ar_1", "crack_initiation_strain", "crack_damage", "crack_damage_strain",
+  content.rows = {"stress_at_0_1_percent_ar_1",
+                  "crack_initiation_share",
+                  "crack_initiation_strain",
+                  "crack_damage",
+                  "crack_damage_share",
+                  "crack_damage_strain",
                   "ucs_ar_1"};
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
@@ -590,8 +595,8 @@ FigureContent dip_strengths(const StudyResult& study) {
   content.statement =
       "From dip 0° to 90° of the long axes the tensile strength (TS) rises dramatically and the UCS rises, weakest at "
       "0°; UCS/TS falls from 21 to 17.";
-  content.rows = {"trend_ucs_with_dip", "ucs_dip_0_weakest", "trend_tensile_strength_with_dip", "ucs_ts_ratio_dip_0",
-                  "ucs_ts_ratio_dip_90"};
+  content.rows = {"trend_ucs_with_dip", "ucs_dip_0_weakest",   "trend_tensile_strength_with_dip",
+                  "ucs_ts_ratio_dip_0", "ucs_ts_ratio_dip_90", "trend_ucs_ts_ratio_with_dip"};
   const auto compression = swept(study, test_compression);
   const auto tension = swept(study, test_tension);
   add_missing(content, study, {test_compression, test_tension});
@@ -604,7 +609,7 @@ FigureContent dip_strengths(const StudyResult& study) {
 FigureContent dip_group_shares(const StudyResult& study) {
   FigureContent content = group_shares(study);
   content.statement = "The dip changes neither the shares of the minerals nor those of the contact groups.";
-  content.rows = {"inter_grain_share_change_with_dip"};
+  content.rows = {"minerals_steady_with_dip", "groups_steady_with_dip", "inter_grain_share_change_with_dip"};
   return content;
 }
 
@@ -613,7 +618,8 @@ FigureContent group_shares(const StudyResult& study) {
   content.statement =
       "The aspect ratio has little influence on the shares of the minerals. The share of inter-grain contacts rises "
       "from 55 % at aspect ratio 1 to 60 % at 3, because an ellipsoid of the same volume has more surface (Eq. 14).";
-  content.rows = {"inter_grain_share_ar_1", "inter_grain_share_ar_3", "trend_inter_grain_share"};
+  content.rows = {"minerals_steady_with_ar", "inter_grain_share_ar_1", "inter_grain_share_ar_3",
+                  "trend_inter_grain_share"};
   const auto cases = swept(study, test_compression);
   if (auto missing = missing_cases(study, test_compression)) content.panels.push_back(*missing);
   if (cases.empty()) return content;
