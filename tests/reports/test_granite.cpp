@@ -127,7 +127,10 @@ TEST_CASE("figures under confinement say what the records hold") {
   CHECK(envelopes.panels.size() == 2);
   CHECK(has(envelopes.finding, "m 29"));
   CHECK(has(envelopes.finding, "95 % interval"));
-  CHECK(has(reports::texture::confinement_crack_maps(made.study()).finding, "mean angle to the axis is"));
+  const std::string maps = reports::texture::confinement_crack_maps(made.study()).finding;
+  CHECK(has(maps, "Cracks at the peak"));
+  CHECK(has(maps, "where the stress has fallen to 90 % of the peak"));
+  CHECK(has(maps, "mean angle of those at the end of loading to the axis is"));
   CHECK(has(envelopes.finding, "inside the range of Eq. 12"));
   const auto after = reports::texture::confinement_after_peak(made.study());
   CHECK(has(after.finding, "0.20, 0.30 and 0.60"));
@@ -135,10 +138,12 @@ TEST_CASE("figures under confinement say what the records hold") {
   CHECK(has(reports::texture::confinement_curves(made.study()).finding, "206"));
   CHECK(reports::texture::crack_orientation(made.study()).panels.size() == 3);
   const auto counts = reports::texture::confinement_crack_counts(made.study());
-  REQUIRE(counts.panels.size() == 3);
-  for (const std::size_t chart : {0, 1})
+  REQUIRE(counts.panels.size() == 5);  // numbers and shares, at the peak and at the end, and the slopes
+  CHECK(counts.panels[0].id == "peak_numbers");
+  CHECK(counts.panels[2].id == "numbers");
+  for (const std::size_t chart : {0, 1, 2, 3})
     CHECK(has(std::get<render::Chart>(counts.panels[chart].content).x.title, "σ₃"));
-  const auto& slopes = std::get<reports::TextTable>(counts.panels[2].content);
+  const auto& slopes = std::get<reports::TextTable>(counts.panels[4].content);
   CHECK(slopes.head[1] == "Slope per MPa of confining pressure");
   CHECK(slopes.rows.size() == 4);
   CHECK(has(counts.finding, "Slopes per MPa of confining pressure: "));
