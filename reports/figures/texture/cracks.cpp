@@ -225,11 +225,14 @@ std::string discs_note(double scale) {
 
 // The state that a picture shows: a snapshot of the record, or the end of loading.
 struct Moment {
-  std::string_view snapshot, id, words;
+  std::string_view snapshot, id, words, label;
 };
-constexpr Moment at_end{"end", "", "at the end of loading"};
-constexpr Moment at_peak{"peak", "peak_", "at the peak"};
-constexpr Moment after_peak{"post_peak", "", "where the stress has fallen to 90 % of the peak"};
+constexpr Moment at_end{"end", "", "at the end of loading", ""};
+constexpr Moment at_peak{"peak", "peak_", "at the peak", ", at the peak"};
+constexpr Moment after_peak{"post_peak", "", "where the stress has fallen to 90 % of the peak", ", after it"};
+
+// Of a picture: two moments may share a row.
+std::string label_at(const SeriesCase& item, const Moment& moment) { return item.label + std::string(moment.label); }
 
 std::size_t cracks_until(const dem::Record& record, const Moment& moment) {
   const dem::Table* table = snapshot(record, moment.snapshot);
@@ -251,14 +254,14 @@ void add_clouds(FigureContent& content, const std::vector<SeriesCase>& cases, co
   double scale = 1;
   for (const SeriesCase& item : cases) scale = std::min(scale, legible_disc_scale(*item.record));
   for (const SeriesCase& item : cases) {
-    content.panels.push_back(
-        {.id = std::string(moment.id) + "discs_" + item.id,
-         .caption =
-             "All cracks " + moment_words(cases, moment) + " as discs in the transparent specimen" + discs_note(scale),
-         .alt = crack_alt(*item.record, cracks_until(*item.record, moment),
-                          capital(item.label) + ", " + std::string(moment.words) + ":"),
-         .content = transparent_cracks(*item.record, cracks_until(*item.record, moment), item.label, 480, scale),
-         .per_row = pictures_per_row(cases)});
+    content.panels.push_back({.id = std::string(moment.id) + "discs_" + item.id,
+                              .caption = "All cracks " + moment_words(cases, moment) +
+                                         " as discs in the transparent specimen" + discs_note(scale),
+                              .alt = crack_alt(*item.record, cracks_until(*item.record, moment),
+                                               capital(item.label) + ", " + std::string(moment.words) + ":"),
+                              .content = transparent_cracks(*item.record, cracks_until(*item.record, moment),
+                                                            label_at(item, moment), 480, scale),
+                              .per_row = pictures_per_row(cases)});
   }
 }
 
@@ -273,11 +276,12 @@ std::vector<double> add_densities(FigureContent& content, const std::vector<Seri
   }
   const double densest = largest.empty() ? 0 : end_of_bar(std::ranges::max(largest));
   for (std::size_t i = 0; i < cases.size() && densest > 0; ++i) {
-    content.panels.push_back({.id = "density_" + cases[i].id,
-                              .caption = density_caption + (" Cracks " + moment_words(cases, moment) + "."),
-                              .alt = density_alt(cases[i].label, densities[i]),
-                              .content = density_picture(*cases[i].record, densities[i], densest, cases[i].label, 480),
-                              .per_row = pictures_per_row(cases)});
+    content.panels.push_back(
+        {.id = "density_" + cases[i].id,
+         .caption = density_caption + (" Cracks " + moment_words(cases, moment) + "."),
+         .alt = density_alt(cases[i].label, densities[i]),
+         .content = density_picture(*cases[i].record, densities[i], densest, label_at(cases[i], moment), 480),
+         .per_row = pictures_per_row(cases)});
   }
   return largest;
 }
@@ -299,7 +303,8 @@ FigureContent crack_maps(const StudyResult& study) {
          .caption = "Cracks " + moment_words(cases, after_peak) +
                     ", within half a mean particle diameter of the longitudinal section, over the minerals.",
          .alt = "Section at " + item.label + " with the traces of the cracks near it over the minerals.",
-         .content = section_cracks(study, *item.record, cracks_until(*item.record, after_peak), item.label, 480),
+         .content = section_cracks(study, *item.record, cracks_until(*item.record, after_peak),
+                                   label_at(item, after_peak), 480),
          .per_row = per_row});
   }
   (void)add_densities(content, cases, after_peak);
